@@ -1,0 +1,1 @@
+"""Estimation of directions on point sets."""

@@ -1,0 +1,1 @@
+"""Analytic and piecewise surfaces, exact and sampled."""
