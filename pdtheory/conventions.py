@@ -5,8 +5,8 @@ Heights z are measured along the unit normal n of a right-handed frame (t1, t2, 
 
     g_k(theta) = sum_n phi_{k,n} exp(i n theta) = T_k v^k / k!,   v = (cos theta, sin theta),
 
-and an E-eigenvalue is lambda = T_k v^k = k! g_k(theta_e), signed. phi_{k,n} and lambda have the unit
-length^(1-k); strength = |g_k| R^(k-1) has none.
+and an E-eigenvalue is lambda = T_k v^k = k! g_k(theta_e), signed. phi_{k,n} and lambda have the
+unit length^(1-k); strength = |g_k| R^(k-1) has none.
 """
 
 from __future__ import annotations
@@ -66,7 +66,8 @@ class Colour(NamedTuple):
     blue: float
 
 
-#: Colours of the paper for orders 2 to 6, continued with a series that stays apart for colour-blind readers.
+#: Colours of the paper for orders 2 to 6, continued with a series that stays apart for
+#: colour-blind readers.
 ORDER_COLOURS: Final[dict[int, Colour]] = {
     2: Colour(0.10, 0.22, 0.80),
     3: Colour(0.10, 0.62, 0.18),

@@ -1,0 +1,33 @@
+# The two commands of the README, and those of a developer. uv makes the environment; where it is
+# missing, pip puts it into .tools.
+UV := $(shell command -v uv 2>/dev/null || echo .tools/bin/uv)
+
+# Blender's Python module exists for Python 3.11 and 3.13: take one of them where there is one.
+PYTHON = $(shell $(UV) python find --system --no-python-downloads '>=3.11,<3.12' 2>/dev/null \
+	|| $(UV) python find --system --no-python-downloads '>=3.13,<3.14' 2>/dev/null || echo 3.13)
+RUN = $(UV) run --quiet --python "$(PYTHON)" --extra blender
+
+.PHONY: demo test lint check slow format
+
+demo: $(UV)  ## the main job, from a scan to a picture: make demo [MODEL=path]
+	$(RUN) pdtheory demo $(if $(MODEL),--model "$(MODEL)")
+
+test: lint  ## lint, types, layers and the default tests
+	$(RUN) pytest
+
+slow: $(UV)  ## the long checks
+	$(RUN) pytest -m slow
+
+lint: $(UV)
+	$(RUN) ruff check .
+	$(RUN) ruff format --check .
+	$(RUN) mypy
+	$(RUN) lint-imports
+
+format: $(UV)
+	$(RUN) ruff check --fix .
+	$(RUN) ruff format .
+
+.tools/bin/uv:
+	python3 -m venv .tools
+	.tools/bin/python -m pip install --quiet uv

@@ -1,0 +1,114 @@
+"""What the commands share: reading option values, checking targets, the progress bar."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from pdtheory.errors import FileAccessError, InputError
+
+#: Largest order the command line accepts; beyond it double precision carries nothing.
+MAX_ORDER = 64
+
+Report = Callable[[float, str], None]
+
+
+def parse_orders(text: str, *, smallest: int = 1) -> tuple[int, ...]:
+    """Read orders written as ``2,3,4``, as ``2:7`` (both ends included), or mixed.
+
+    Parameters
+    ----------
+    text
+        The option's value.
+    smallest
+        The smallest order that makes sense to the caller.
+
+    Returns
+    -------
+    tuple of int
+        The orders, ascending and without repetition.
+
+    Raises
+    ------
+    InputError
+        If the text is not such a list, or an order lies outside smallest..64.
+    """
+    orders: set[int] = set()
+    for part in text.split(","):
+        first, colon, last = part.strip().partition(":")
+        try:
+            low = int(first)
+            high = int(last) if colon else low
+        except ValueError:
+            raise InputError(
+                f"cannot read the orders {text!r}; write them as 2,3,4 or 2:7."
+            ) from None
+        if not smallest <= low <= high <= MAX_ORDER:
+            raise InputError(
+                f"orders {part.strip()!r} are out of range; "
+                f"give ascending orders between {smallest} and {MAX_ORDER}."
+            )
+        orders.update(range(low, high + 1))
+    return tuple(sorted(orders))
+
+
+def check_target(path: Path, suffixes: tuple[str, ...]) -> None:
+    """Refuse an output before the work that would be lost with it.
+
+    Raises
+    ------
+    InputError
+        If the suffix is none of `suffixes`.
+    FileAccessError
+        If the folder does not exist or cannot be written to, or the path is a folder.
+    """
+    if path.suffix.lower() not in suffixes:
+        raise InputError(
+            f"cannot write {path}: the suffix {path.suffix or '(none)'} is not known; "
+            f"use one of {', '.join(suffixes)}."
+        )
+    if path.is_dir():
+        raise FileAccessError(f"cannot write {path}: it is a folder; give a file name.")
+    folder = path.parent
+    if not folder.is_dir():
+        raise FileAccessError(
+            f"cannot write {path}: the folder {folder} does not exist; create it first."
+        )
+    if not os.access(folder, os.W_OK) or (path.exists() and not os.access(path, os.W_OK)):
+        raise FileAccessError(
+            f"cannot write {path}: permission denied; choose a place you may write to."
+        )
+
+
+@contextmanager
+def progress_bar(title: str, *, quiet: bool = False) -> Iterator[Report]:
+    """Show a progress bar on standard error and yield the callback that moves it.
+
+    Parameters
+    ----------
+    title
+        Text before the bar until the work reports its own.
+    quiet
+        If true, show nothing.
+    """
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeElapsedColumn
+
+    with Progress(
+        TextColumn("{task.description:<32}"),
+        BarColumn(),
+        TaskProgressColumn(),
+        TimeElapsedColumn(),
+        console=Console(stderr=True),
+        disable=quiet,
+        transient=False,
+    ) as progress:
+        task = progress.add_task(title, total=1.0)
+
+        def report(fraction: float, text: str) -> None:
+            progress.update(task, completed=fraction, description=text or title)
+
+        yield report
+        progress.update(task, completed=1.0)
