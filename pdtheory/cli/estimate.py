@@ -106,6 +106,7 @@ def estimate(
             threads=threads,
             progress=report,
         )
+    _refuse_empty(field, source)
     for target in output:
         write_field(field, target)
     if not quiet:
@@ -117,6 +118,16 @@ def estimate(
             console.print(sentence, highlight=False)
         for target in output:
             console.print(f"Wrote {target}", highlight=False, soft_wrap=True)
+
+
+def _refuse_empty(field: DirectionField, source: Path) -> None:
+    """Refuse a result in which no point has an answer: nobody wants a file of NaN."""
+    if not bool(((field.status & int(UNANSWERED)) != 0).all()):
+        return
+    _, *reasons = status_sentences(field)
+    raise InputError(
+        f"none of the {len(field):,} points of {source} could be answered: {' '.join(reasons)}"
+    )
 
 
 def summary_table(field: DirectionField) -> Table:
