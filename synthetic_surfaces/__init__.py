@@ -1,1 +1,15 @@
-"""Analytic and piecewise surfaces, exact and sampled."""
+"""Surfaces that are known exactly: described, meshed, sampled, with their true directions.
+
+Examples
+--------
+>>> import synthetic_surfaces
+>>> monkey = synthetic_surfaces.get("monkey")
+>>> cloud = monkey.sample(2000, noise=0.1, seed=7)
+"""
+
+from synthetic_surfaces.base import Surface
+from synthetic_surfaces.description import Description
+from synthetic_surfaces.parameters import Parameter
+from synthetic_surfaces.registry import get, names
+
+__all__ = ["Description", "Parameter", "Surface", "get", "names"]
