@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -18,6 +19,30 @@ _PROBE = 65
 
 #: Safety factor of the bound on the area element between the probes.
 _MARGIN = 1.1
+
+
+#: Step of the complex-step derivative; far below rounding, since nothing is subtracted.
+_IMAGINARY_STEP = 1e-30
+
+
+def from_map(position: Callable[[Any, Any], Any]) -> Evaluate:
+    """Return points and tangents of a chart that is given by its points alone.
+
+    The tangents are complex-step derivatives, Im X(u + ih, v) / h, exact to rounding.
+
+    Parameters
+    ----------
+    position
+        Maps u, v of shape (m,) to points (m, 3), by analytic NumPy functions that take complex
+        numbers.
+    """
+
+    def evaluate(u: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        step = 1j * _IMAGINARY_STEP
+        along_u, along_v = position(u + step, v + 0j), position(u + 0j, v + step)
+        return along_u.real, along_u.imag / _IMAGINARY_STEP, along_v.imag / _IMAGINARY_STEP
+
+    return evaluate
 
 
 @dataclass(frozen=True)

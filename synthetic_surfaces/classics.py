@@ -2,19 +2,41 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import ClassVar
+from collections.abc import Callable, Sequence
+from typing import Any, ClassVar
 
 import numpy as np
 
 from pdtheory.errors import InputError
 from pdtheory.pointset.cloud import FloatArray
 from synthetic_surfaces.base import Surface
-from synthetic_surfaces.chart import Chart
+from synthetic_surfaces.chart import Chart, Evaluate, from_map
 from synthetic_surfaces.description import Description
 from synthetic_surfaces.parameters import Parameter, Parameters
 
-_Maps = tuple[FloatArray, FloatArray, FloatArray]
+#: (u, v) of shape (m,), real or complex, to unit vectors (m, 3).
+Direction = Callable[[Any, Any], Any]
+
+
+def cube_directions() -> list[Direction]:
+    """Return six maps of the unit square to directions: the faces of a cube, seen from its centre.
+
+    Equal steps are equal angles along the middle lines of a face, which keeps cells of one size.
+    """
+
+    def face(normal: FloatArray, first: FloatArray, second: FloatArray) -> Direction:
+        def direction(u: Any, v: Any) -> Any:
+            a, b = np.tan((u - 0.5) * np.pi / 2)[:, None], np.tan((v - 0.5) * np.pi / 2)[:, None]
+            return (normal + a * first + b * second) / np.sqrt(1 + a**2 + b**2)
+
+        return direction
+
+    unit = np.eye(3)
+    return [
+        face(sign * unit[i], unit[(i + 1) % 3], sign * unit[(i + 2) % 3])
+        for i in range(3)
+        for sign in (1.0, -1.0)
+    ]
 
 
 class Plane(Surface):
@@ -30,15 +52,10 @@ class Plane(Surface):
     def charts(self) -> Sequence[Chart]:
         side = self.number("side")
 
-        def evaluate(u: FloatArray, v: FloatArray) -> _Maps:
-            zero, one = np.zeros_like(u), np.full_like(u, side)
-            return (
-                np.stack([side * (u - 0.5), side * (v - 0.5), zero], axis=1),
-                np.stack([one, zero, zero], axis=1),
-                np.stack([zero, one, zero], axis=1),
-            )
+        def position(u: Any, v: Any) -> Any:
+            return np.stack([side * (u - 0.5), side * (v - 0.5), 0 * u], axis=1)
 
-        return [Chart(evaluate)]
+        return [Chart(from_map(position))]
 
 
 class Ellipsoid(Surface):
@@ -62,31 +79,12 @@ class Ellipsoid(Surface):
 
     def charts(self) -> Sequence[Chart]:
         """Return the six faces of a cube, blown up to the ellipsoid: no poles."""
-        axes = np.array([float(self.values[name]) for name in self._axis_names()])
+        axes = np.array([self.number(name) for name in self._axis_names()])
 
-        def face(normal: FloatArray, first: FloatArray, second: FloatArray) -> Chart:
-            def evaluate(u: FloatArray, v: FloatArray) -> _Maps:
-                # Equal angles on the faces keep the cells of one size.
-                a, b = np.tan((u - 0.5) * np.pi / 2), np.tan((v - 0.5) * np.pi / 2)
-                da, db = (1 + a**2) * np.pi / 2, (1 + b**2) * np.pi / 2
-                cube = normal + a[:, None] * first + b[:, None] * second
-                length = np.sqrt(1 + a**2 + b**2)[:, None]
-                along_a = first / length - cube * a[:, None] / length**3
-                along_b = second / length - cube * b[:, None] / length**3
-                return (
-                    axes * cube / length,
-                    axes * along_a * da[:, None],
-                    axes * along_b * db[:, None],
-                )
+        def stretch(direction: Direction) -> Evaluate:
+            return from_map(lambda u, v: axes * direction(u, v))
 
-            return Chart(evaluate)
-
-        unit = np.eye(3)
-        return [
-            face(sign * unit[i], unit[(i + 1) % 3], sign * unit[(i + 2) % 3])
-            for i in range(3)
-            for sign in (1.0, -1.0)
-        ]
+        return [Chart(stretch(direction)) for direction in cube_directions()]
 
     def _axis_names(self) -> tuple[str, str, str]:
         return ("a", "b", "c")
@@ -123,16 +121,13 @@ class Cylinder(Surface):
     def charts(self) -> Sequence[Chart]:
         radius, length = self.number("radius"), self.number("length")
 
-        def evaluate(u: FloatArray, v: FloatArray) -> _Maps:
-            angle, zero = 2 * np.pi * u, np.zeros_like(u)
-            x, y = radius * np.cos(angle), radius * np.sin(angle)
-            return (
-                np.stack([x, y, length * (v - 0.5)], axis=1),
-                2 * np.pi * np.stack([-y, x, zero], axis=1),
-                np.stack([zero, zero, np.full_like(u, length)], axis=1),
+        def position(u: Any, v: Any) -> Any:
+            angle = 2 * np.pi * u
+            return np.stack(
+                [radius * np.cos(angle), radius * np.sin(angle), length * (v - 0.5)], axis=1
             )
 
-        return [Chart(evaluate, (2.0, max(0.1, length / (np.pi * radius))))]
+        return [Chart(from_map(position), (2.0, max(0.1, length / (np.pi * radius))))]
 
 
 class Torus(Surface):
@@ -160,19 +155,14 @@ class Torus(Surface):
     def charts(self) -> Sequence[Chart]:
         major, minor = self.number("major"), self.number("minor")
 
-        def evaluate(u: FloatArray, v: FloatArray) -> _Maps:
-            a, b, zero = 2 * np.pi * u, 2 * np.pi * v, np.zeros_like(u)
-            ring = major + minor * np.cos(b)
-            return (
-                np.stack([ring * np.cos(a), ring * np.sin(a), minor * np.sin(b)], axis=1),
-                2 * np.pi * np.stack([-ring * np.sin(a), ring * np.cos(a), zero], axis=1),
-                2
-                * np.pi
-                * minor
-                * np.stack([-np.sin(b) * np.cos(a), -np.sin(b) * np.sin(a), np.cos(b)], axis=1),
+        def position(u: Any, v: Any) -> Any:
+            around, tube = 2 * np.pi * u, 2 * np.pi * v
+            ring = major + minor * np.cos(tube)
+            return np.stack(
+                [ring * np.cos(around), ring * np.sin(around), minor * np.sin(tube)], axis=1
             )
 
-        return [Chart(evaluate, (2.0, max(0.1, 2 * minor / major)))]
+        return [Chart(from_map(position), (2.0, max(0.1, 2 * minor / major)))]
 
 
 class Enneper(Surface):
@@ -195,12 +185,10 @@ class Enneper(Surface):
     def charts(self) -> Sequence[Chart]:
         size = self.number("size")
 
-        def evaluate(u: FloatArray, v: FloatArray) -> _Maps:
+        def position(u: Any, v: Any) -> Any:
             p, q = size * (2 * u - 1), size * (2 * v - 1)
-            return (
-                np.stack([p - p**3 / 3 + p * q**2, -q + q**3 / 3 - q * p**2, p**2 - q**2], axis=1),
-                2 * size * np.stack([1 - p**2 + q**2, -2 * p * q, 2 * p], axis=1),
-                2 * size * np.stack([2 * p * q, -1 + q**2 - p**2, -2 * q], axis=1),
+            return np.stack(
+                [p - p**3 / 3 + p * q**2, -q + q**3 / 3 - q * p**2, p**2 - q**2], axis=1
             )
 
-        return [Chart(evaluate)]
+        return [Chart(from_map(position))]

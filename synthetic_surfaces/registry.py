@@ -6,7 +6,11 @@ from typing import Any, Final
 
 from pdtheory.errors import InputError
 from synthetic_surfaces.base import Surface
+from synthetic_surfaces.cad import CadPart
 from synthetic_surfaces.classics import Cylinder, Ellipsoid, Enneper, Plane, Sphere, Torus
+from synthetic_surfaces.cones import Corner, Planes, Ridge, TJunction
+from synthetic_surfaces.junctions import RidgeToJunction, SmoothTJunction
+from synthetic_surfaces.quartics import Cyclide, Goursat
 from synthetic_surfaces.solids import Cube, RoundedCube
 from synthetic_surfaces.wavejets import (
     AnyWavejets,
@@ -26,14 +30,23 @@ SURFACES: Final[dict[str, type[Surface]]] = {
         Order3Family,
         AnyWavejets,
         RandomPolynomial,
+        Ridge,
+        Corner,
+        Planes,
+        TJunction,
+        SmoothTJunction,
+        RidgeToJunction,
         Plane,
         Sphere,
         Ellipsoid,
         Cylinder,
         Torus,
         Enneper,
+        Goursat,
+        Cyclide,
         Cube,
         RoundedCube,
+        CadPart,
     )
 }
 

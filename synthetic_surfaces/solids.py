@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
 from pdtheory.errors import InputError
 from pdtheory.pointset.cloud import FloatArray
 from synthetic_surfaces.base import Surface
-from synthetic_surfaces.chart import Chart
+from synthetic_surfaces.chart import Chart, from_map
 from synthetic_surfaces.description import Description
 from synthetic_surfaces.parameters import Parameter, Parameters
 
-_Maps = tuple[FloatArray, FloatArray, FloatArray]
 _UNIT = np.eye(3)
 
 
@@ -100,11 +99,10 @@ class Cube(Surface):
 def _square(centre: FloatArray, first: FloatArray, second: FloatArray) -> Chart:
     """The parallelogram centre + [-1, 1] first + [-1, 1] second."""
 
-    def evaluate(u: FloatArray, v: FloatArray) -> _Maps:
-        points = centre + np.outer(2 * u - 1, first) + np.outer(2 * v - 1, second)
-        return points, np.tile(2 * first, (len(u), 1)), np.tile(2 * second, (len(u), 1))
+    def position(u: Any, v: Any) -> Any:
+        return centre + np.outer(2 * u - 1, first) + np.outer(2 * v - 1, second)
 
-    return Chart(evaluate)
+    return Chart(from_map(position))
 
 
 def _quarter_cylinder(
@@ -112,31 +110,21 @@ def _quarter_cylinder(
 ) -> Chart:
     """From `first` to `second` around the segment centre + [-1, 1] axis."""
 
-    def evaluate(u: FloatArray, v: FloatArray) -> _Maps:
+    def position(u: Any, v: Any) -> Any:
         angle = np.pi / 2 * u
-        cosine, sine = np.cos(angle), np.sin(angle)
-        points = (
-            centre + np.outer(cosine, first) + np.outer(sine, second) + np.outer(2 * v - 1, axis)
-        )
-        turn = np.pi / 2 * (np.outer(cosine, second) - np.outer(sine, first))
-        return points, turn, np.tile(2 * axis, (len(u), 1))
+        around = np.outer(np.cos(angle), first) + np.outer(np.sin(angle), second)
+        return centre + around + np.outer(2 * v - 1, axis)
 
-    return Chart(evaluate, (cells, 1.0))
+    return Chart(from_map(position), (cells, 1.0))
 
 
 def _octant(centre: FloatArray, legs: FloatArray, cells: float) -> Chart:
     """The octant of a sphere between the rows of `legs`, orthogonal and right-handed."""
     first, second, third = legs
 
-    def evaluate(u: FloatArray, v: FloatArray) -> _Maps:
+    def position(u: Any, v: Any) -> Any:
         a, b = np.pi / 2 * u, np.pi / 2 * v
         ring = np.outer(np.cos(a), first) + np.outer(np.sin(a), second)
-        turn = np.outer(np.cos(a), second) - np.outer(np.sin(a), first)
-        low, high = np.cos(b)[:, None], np.sin(b)[:, None]
-        return (
-            centre + low * ring + high * third,
-            np.pi / 2 * low * turn,
-            np.pi / 2 * (low * third - high * ring),
-        )
+        return centre + np.cos(b)[:, None] * ring + np.outer(np.sin(b), third)
 
-    return Chart(evaluate, (cells, cells))
+    return Chart(from_map(position), (cells, cells))

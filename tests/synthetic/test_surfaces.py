@@ -13,6 +13,7 @@ import synthetic_surfaces
 from pdtheory.errors import InputError
 from pdtheory.exact.expression import parse_expression
 from pdtheory.pointset.cloud import FloatArray, PointCloud
+from synthetic_surfaces.height import HeightSurface
 
 NAMES = synthetic_surfaces.names()
 VARIANTS = [
@@ -24,6 +25,10 @@ VARIANTS = [
     ("ellipsoid", {"a": 3, "b": 1, "c": 0.5}),
     ("torus", {"major": 2, "minor": 1.5}),
     ("cylinder", {"radius": 0.5, "length": 4}),
+    ("goursat", {"a": -0.25, "b": "1/2", "c": -2}),
+    ("cyclide", {"a": 2, "c": 1, "d": 1.25}),
+    ("ridge-to-junction", {"step": "1/3", "width": 0.5}),
+    ("smooth-t-junction", {"slope": 2, "smoothing": 0.3}),
 ]
 
 
@@ -69,7 +74,8 @@ def test_meshes_are_clean_and_face_outwards(name: str) -> None:
     assert np.all(mesh.area_faces > 0)
     assert len(np.unique(cloud.faces)) == len(cloud)
     corner = np.einsum("fij,fj->fi", cloud.normals[cloud.faces], mesh.face_normals)
-    assert corner.min() > 0.5  # 0.577 at the corner of a cube
+    # 1/sqrt(3) at the corner of a cube; the part has sharper corners.
+    assert corner.min() > (0.1 if name == "cad-part" else 0.5)
     closed = name in ("sphere", "ellipsoid", "torus", "cube", "rounded-cube", "goursat", "cyclide")
     if closed or name == "cad-part":
         assert mesh.is_watertight
@@ -95,6 +101,64 @@ def test_exact_volumes_and_areas() -> None:
         mesh = trimesh.Trimesh(cloud.points, cloud.faces, process=False)
         assert mesh.volume == pytest.approx(volume, rel=3e-3)
         assert mesh.area == pytest.approx(area, rel=3e-3)
+
+
+def test_cones_are_linear_between_their_rays() -> None:
+    x, y = np.random.default_rng(1).uniform(-0.7, 0.7, (2, 2000))
+    cube_diagonal = np.ones(3) / np.sqrt(3)
+    # The octant x_i <= 0 in the frame of its diagonal, its edge against e_1 at azimuth 0.
+    across = -np.array([[2, -1, -1], [0, 1, -1]]) / np.sqrt([[6], [2]])
+    faces = -np.stack([x, y], axis=1) @ across / cube_diagonal
+    for name, expected in (
+        ("ridge", -np.abs(y)),
+        ("t-junction", -np.minimum(np.abs(y), np.maximum(np.abs(x), -y))),
+        ("corner", faces.min(axis=1)),
+    ):
+        surface = synthetic_surfaces.get(name)
+        assert isinstance(surface, HeightSurface)
+        np.testing.assert_allclose(surface.height(x, y), expected, atol=1e-14)
+    smooth = synthetic_surfaces.get("smooth-t-junction", smoothing=1e-6)
+    assert isinstance(smooth, HeightSurface)
+    sharp = synthetic_surfaces.get("t-junction")
+    assert isinstance(sharp, HeightSurface)
+    np.testing.assert_allclose(smooth.height(x, y), sharp.height(x, y), atol=3e-6)
+
+
+@pytest.mark.parametrize("name", ["ridge", "corner", "planes", "t-junction"])
+def test_cones_follow_their_description(name: str) -> None:
+    surface = synthetic_surfaces.get(name)
+    assert isinstance(surface, HeightSurface)
+    rays = [[float(parse_expression(text, ())) for text in ray] for ray in surface.describe().rays]
+    angle, slope = np.array(rays).T
+    angle = np.radians(angle)
+    after, end = np.append(angle[1:], angle[0] + 2 * np.pi), np.roll(slope, -1)
+    # On a plane the height at the middle of two points is the mean of their heights.
+    for share in (0.0, 0.25, 0.5, 0.9):
+        first = (1 - share) * np.stack([np.cos(angle), np.sin(angle)])
+        place = first + share * np.stack([np.cos(after), np.sin(after)])
+        expected = (1 - share) * slope + share * end
+        np.testing.assert_allclose(surface.height(*place), expected, atol=1e-14)
+    cloud = surface.sample(500, seed=2)
+    dx, dy = surface.gradient(*cloud.points[:, :2].T)
+    np.testing.assert_allclose(cloud.points[:, 2], surface.height(*cloud.points[:, :2].T))
+    assert cloud.normals is not None
+    np.testing.assert_allclose(
+        -cloud.normals[:, :2] / cloud.normals[:, 2:], np.stack([dx, dy], axis=1), atol=1e-12
+    )
+
+
+def test_ridge_to_junction_has_the_expansion_it_states() -> None:
+    x, y = sp.symbols("x y")
+    surface = synthetic_surfaces.get("ridge-to-junction", step="2/3")
+    form = parse_expression(surface.describe().expressions[0], ("x", "y"))
+    t = sp.Symbol("t")
+    ray = form.subs({x: t * x, y: t * y})
+    terms = [sp.expand(sp.diff(ray, t, k).subs(t, 0) / sp.factorial(k)) for k in range(4)]
+    width, height, step = sp.Rational(1, 4), sp.Rational(1, 4), sp.Rational(2, 3)
+    assert terms[0] == height
+    assert terms[1] == 0
+    assert sp.expand(terms[2] + height * (1 - step / 2) * (y / width) ** 2) == 0
+    assert sp.expand(terms[3] - height * step * (y / width) ** 3 / 2) == 0
 
 
 def test_enneper_is_its_parametric_form() -> None:
@@ -231,6 +295,13 @@ def test_parameters_are_exact() -> None:
         ("torus", {"minor": None}, "not a number"),
         ("saddle", {"folds": 2.5}, "whole number"),
         ("rounded-cube", {"rounding": 1}, "half the side"),
+        ("planes", {"azimuths": "0,90"}, "at least 3"),
+        ("planes", {"azimuths": "0,90,270"}, "gaps below 180"),
+        ("planes", {"azimuths": "0,200,100"}, "ascend"),
+        ("planes", {"slopes": "1,2"}, "2 slopes for 5"),
+        ("cyclide", {"d": 2}, "do not ascend"),
+        ("cad-part", {"middle": 2}, "do not ascend"),
+        ("goursat", {"c": 1}, "out of range"),
         ("wavejets", {"table": ""}, "empty"),
         ("wavejets", {"table": "3,2:1"}, "parity"),
         ("wavejets", {"table": "3,3:__import__('os')"}, "is not a number"),
