@@ -1,1 +1,25 @@
-"""The exact side."""
+"""Symmetric tensors of dimension 2 and their E-eigenpairs, exactly."""
+
+from pdtheory.exact.algebraic import RealAlgebraic
+from pdtheory.exact.balls import Enclosure
+from pdtheory.exact.eigenpairs import EigenPair, EigenPairs, real_eigenpairs
+from pdtheory.exact.expression import parse_expression
+from pdtheory.exact.faces import BinaryForm, Face, SymmetricTensor, WavejetsRow
+from pdtheory.exact.report import report
+from pdtheory.exact.series import differential_tensor, taylor_forms
+
+__all__ = [
+    "BinaryForm",
+    "EigenPair",
+    "EigenPairs",
+    "Enclosure",
+    "Face",
+    "RealAlgebraic",
+    "SymmetricTensor",
+    "WavejetsRow",
+    "differential_tensor",
+    "parse_expression",
+    "real_eigenpairs",
+    "report",
+    "taylor_forms",
+]

@@ -1,0 +1,262 @@
+"""Certified real numbers: isolating the real roots of integer polynomials, and intervals.
+
+Two engines do the same three jobs. `FlintEngine` uses python-flint (Arb's balls); `SympyEngine`
+uses SymPy's real root isolation and mpmath's interval arithmetic, slower and without a compiled
+library. `engine()` returns the first that can be imported.
+
+Polynomials are tuples of integers, constant term first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import AbstractContextManager, contextmanager
+from fractions import Fraction
+from functools import cache, lru_cache
+from itertools import pairwise
+from typing import Any, NamedTuple, Protocol
+
+Integers = tuple[int, ...]
+
+
+class Enclosure(NamedTuple):
+    """A closed interval with rational ends that is proved to hold a real number."""
+
+    lower: Fraction
+    upper: Fraction
+
+    @property
+    def middle(self) -> Fraction:
+        """The midpoint."""
+        return (self.lower + self.upper) / 2
+
+    @property
+    def width(self) -> Fraction:
+        """The length of the interval."""
+        return self.upper - self.lower
+
+    @property
+    def sign(self) -> int | None:
+        """The sign of every number inside, or None if zero is inside among others."""
+        if self.lower > 0:
+            return 1
+        if self.upper < 0:
+            return -1
+        return 0 if self.lower == self.upper else None
+
+    def narrower_than(self, digits: int) -> bool:
+        """Return whether the width is below 10^-digits relative to max(1, |number|)."""
+        scale = max(Fraction(1), min(abs(self.lower), abs(self.upper)))
+        return self.width * 10**digits <= scale
+
+    def overlaps(self, other: Enclosure) -> bool:
+        """Return whether the two intervals share a point."""
+        return self.lower <= other.upper and other.lower <= self.upper
+
+    def shift(self, by: int) -> Enclosure:
+        """Return the interval moved by an integer."""
+        return Enclosure(self.lower + by, self.upper + by)
+
+    def text(self, digits: int) -> str:
+        """Return the interval with decimal ends of about this many digits, rounded outwards."""
+        size = max(abs(self.lower), abs(self.upper))
+        places = digits
+        while places > 0 and size >= 1:
+            size, places = size / 10, places - 1
+        while size and size < Fraction(1, 10):
+            size, places = size * 10, places + 1
+        lower = _decimal((self.lower * 10**places).__floor__(), places)
+        upper = _decimal((self.upper * 10**places).__ceil__(), places)
+        return f"[{lower}, {upper}]"
+
+
+def _decimal(scaled: int, places: int) -> str:
+    text = str(abs(scaled)).rjust(places + 1, "0")
+    sign = "-" if scaled < 0 else ""
+    return f"{sign}{text[:-places]}.{text[-places:]}" if places else f"{sign}{text}"
+
+
+class Engine(Protocol):
+    """What the exact side asks of a library of certified numbers."""
+
+    name: str
+
+    def factor(self, polynomial: Integers) -> list[tuple[Integers, int]]:
+        """Return the irreducible factors over Q of positive degree, with their multiplicities."""
+
+    def real_roots(self, polynomial: Integers, bits: int) -> list[Enclosure]:
+        """Return disjoint enclosures of all real roots of a squarefree polynomial, ascending."""
+
+    def precision(self, bits: int) -> AbstractContextManager[Any]:
+        """Return a context in which intervals carry this many bits."""
+
+    def interval(self, enclosure: Enclosure) -> Any:
+        """Return an interval number of the engine that contains the enclosure."""
+
+    def enclosure(self, interval: Any) -> Enclosure:
+        """Return rational ends of an interval number."""
+
+    def sqrt(self, interval: Any) -> Any:
+        """Return the square root."""
+
+    def atan_degrees(self, interval: Any) -> Any:
+        """Return the arc tangent in degrees."""
+
+
+class FlintEngine:
+    """Arb's balls through python-flint."""
+
+    name = "python-flint"
+
+    def __init__(self) -> None:
+        import flint
+
+        self._flint = flint
+
+    def factor(self, polynomial: Integers) -> list[tuple[Integers, int]]:
+        """See :class:`Engine`."""
+        _, factors = self._flint.fmpz_poly(list(polynomial)).factor()
+        return [(tuple(int(c) for c in p.coeffs()), int(m)) for p, m in factors]
+
+    def real_roots(self, polynomial: Integers, bits: int) -> list[Enclosure]:
+        """See :class:`Engine`."""
+        p = self._flint.fmpz_poly(list(polynomial))
+        if p.degree() == 1:
+            root = Fraction(-int(p[0]), int(p[1]))
+            return [Enclosure(root, root)]
+        # FLINT proves that a root is real before it sets the imaginary part to exact zero.
+        with self.precision(bits):
+            roots = [r.real for r, _ in p.complex_roots() if r.imag.is_zero()]
+            return sorted(self.enclosure(r) for r in roots)
+
+    def precision(self, bits: int) -> AbstractContextManager[Any]:
+        """See :class:`Engine`."""
+        return self._flint.ctx.workprec(bits)
+
+    def interval(self, enclosure: Enclosure) -> Any:
+        """See :class:`Engine`."""
+        lower, upper = (
+            self._flint.arb(self._flint.fmpq(e.numerator, e.denominator)) for e in enclosure
+        )
+        return lower if enclosure.lower == enclosure.upper else lower.union(upper)
+
+    def enclosure(self, interval: Any) -> Enclosure:
+        """See :class:`Engine`."""
+        middle, radius = _dyadic(interval.mid()), _dyadic(interval.rad())
+        return Enclosure(middle - radius, middle + radius)
+
+    def sqrt(self, interval: Any) -> Any:
+        """See :class:`Engine`."""
+        return interval.sqrt()
+
+    def atan_degrees(self, interval: Any) -> Any:
+        """See :class:`Engine`."""
+        return interval.atan() * 180 / self._flint.arb.pi()
+
+
+def _dyadic(value: Any) -> Fraction:
+    mantissa, exponent = (int(part) for part in value.man_exp())
+    return Fraction(mantissa) * Fraction(2) ** exponent
+
+
+class SympyEngine:
+    """SymPy's isolation of real roots and mpmath's intervals."""
+
+    name = "sympy"
+
+    def __init__(self) -> None:
+        import mpmath
+        import sympy
+
+        self._mpmath = mpmath
+        self._sympy = sympy
+
+    def _poly(self, polynomial: Integers) -> Any:
+        return self._sympy.Poly(polynomial[::-1], self._sympy.Symbol("t"), domain="ZZ")
+
+    def factor(self, polynomial: Integers) -> list[tuple[Integers, int]]:
+        """See :class:`Engine`."""
+        _, factors = self._poly(polynomial).factor_list()
+        return [(tuple(int(c) for c in p.all_coeffs()[::-1]), m) for p, m in factors]
+
+    def real_roots(self, polynomial: Integers, bits: int) -> list[Enclosure]:
+        """See :class:`Engine`."""
+        p = self._poly(polynomial)
+        isolated = p.intervals(eps=self._sympy.Rational(1, 2**bits))
+        roots = [Enclosure(_fraction(a), _fraction(b)) for (a, b), _ in isolated]
+        # Neighbouring intervals may touch; a common end is a root of neither.
+        while any(a.upper >= b.lower for a, b in pairwise(roots)):
+            bits *= 2
+            roots = [
+                Enclosure(_fraction(a), _fraction(b))
+                for a, b in (
+                    p.refine_root(r.lower, r.upper, eps=self._sympy.Rational(1, 2**bits))
+                    for r in roots
+                )
+            ]
+        return roots
+
+    @contextmanager
+    def precision(self, bits: int) -> Iterator[None]:
+        """See :class:`Engine`."""
+        iv = self._mpmath.iv
+        before, iv.prec = iv.prec, bits
+        try:
+            yield
+        finally:
+            iv.prec = before
+
+    def interval(self, enclosure: Enclosure) -> Any:
+        """See :class:`Engine`."""
+        iv = self._mpmath.iv
+        lower, upper = (iv.mpf(e.numerator) / iv.mpf(e.denominator) for e in enclosure)
+        return iv.mpf([lower.a, upper.b])
+
+    def enclosure(self, interval: Any) -> Enclosure:
+        """See :class:`Engine`."""
+        ends = (self._mpmath.mp.make_mpf(end) for end in interval._mpi_)
+        return Enclosure(*(_binary(end) for end in ends))
+
+    def sqrt(self, interval: Any) -> Any:
+        """See :class:`Engine`."""
+        return self._mpmath.iv.sqrt(interval)
+
+    def atan_degrees(self, interval: Any) -> Any:
+        """See :class:`Engine`."""
+        iv = self._mpmath.iv
+        return iv.atan2(interval, iv.mpf(1)) * 180 / iv.pi
+
+
+def _fraction(value: Any) -> Fraction:
+    return Fraction(int(value.p), int(value.q))
+
+
+def _binary(value: Any) -> Fraction:
+    sign, mantissa, exponent, _ = value._mpf_
+    return Fraction(-int(mantissa) if sign else int(mantissa)) * Fraction(2) ** int(exponent)
+
+
+@cache
+def engine() -> Engine:
+    """Return the engine in use: python-flint where it is installed, else SymPy."""
+    try:
+        return FlintEngine()
+    except ImportError:
+        return SympyEngine()
+
+
+@lru_cache(maxsize=512)
+def real_roots(polynomial: Integers, bits: int) -> tuple[Enclosure, ...]:
+    """Return the enclosures of all real roots of a squarefree polynomial, ascending and disjoint.
+
+    The number of enclosures is the number of real roots: that is proved, not counted numerically.
+    """
+    return tuple(engine().real_roots(polynomial, bits))
+
+
+def horner(coefficients: Sequence[Any], at: Any) -> Any:
+    """Evaluate a polynomial, constant term first, in whatever arithmetic the operands bring."""
+    value = coefficients[-1]
+    for c in reversed(coefficients[:-1]):
+        value = value * at + c
+    return value

@@ -1,0 +1,114 @@
+"""Exact results as plain data for JSON."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import sympy as sp
+
+from pdtheory.errors import InputError
+from pdtheory.exact.eigenpairs import EigenPairs, real_eigenpairs
+from pdtheory.exact.faces import MAX_ORDER, BinaryForm, Face
+from pdtheory.exact.series import taylor_forms
+
+
+def degree_bound(expression: Any, variables: Iterable[Any]) -> int | None:
+    """Return an upper bound on the total degree of a polynomial, None if it is no polynomial.
+
+    Nothing is expanded, so a large power costs nothing.
+    """
+    symbols = set(variables)
+    if not expression.free_symbols & symbols:
+        return 0
+    if expression in symbols:
+        return 1
+    parts = [degree_bound(a, symbols) for a in expression.args]
+    if expression.is_Add or expression.is_Mul:
+        known = [d for d in parts if d is not None]
+        if len(known) < len(parts):
+            return None
+        return max(known) if expression.is_Add else sum(known)
+    if expression.is_Pow and expression.exp.is_Integer and expression.exp > 0:
+        return None if parts[0] is None else parts[0] * int(expression.exp)
+    return None
+
+
+def orders_of(
+    expression: Any,
+    variables: tuple[Any, Any],
+    *,
+    order: int | None = None,
+    max_order: int = 8,
+    at: tuple[Any, Any] = (0, 0),
+) -> list[BinaryForm]:
+    """Return the forms to report: one order, or every order k >= 1 that does not vanish.
+
+    Parameters
+    ----------
+    expression
+        The function of two variables.
+    variables
+        The variables.
+    order
+        The one order asked for; None for all, up to the degree of a polynomial.
+    max_order
+        Largest order for expressions that are no polynomials.
+    at
+        The point of expansion.
+
+    Raises
+    ------
+    InputError
+        If every order from 1 on vanishes, or an order is out of bounds.
+    """
+    if order is not None:
+        if order < 1:
+            raise InputError(f"The order is {order}; it must be an integer from 1 to {MAX_ORDER}.")
+        return [taylor_forms(expression, variables, order, at)[order]]
+    bound = degree_bound(expression, variables)
+    if bound is not None and bound > MAX_ORDER:
+        raise InputError(
+            f"The polynomial has degree up to {bound}; all orders are listed up to {MAX_ORDER}, "
+            "so ask for one order."
+        )
+    if bound is None and max_order < 1:
+        raise InputError(f"The largest order is {max_order}; it must be at least 1.")
+    degree = max_order if bound is None else bound
+    forms = [f for f in taylor_forms(expression, variables, degree, at)[1:] if not f.is_zero]
+    if not forms:
+        raise InputError(
+            f"Every order from 1 to {max(degree, 1)} of {expression} vanishes at "
+            f"({at[0]}, {at[1]}), so there are no directions to list."
+        )
+    return forms
+
+
+def order_report(pairs: EigenPairs) -> dict[str, Any]:
+    """Return one order as plain data: Wavejets row, pairs and status."""
+    row = pairs.form.row
+    return {
+        "wavejets": {str(n): [float(re), float(im)] for n, (re, im) in row.parts.items()},
+        "pairs": [
+            {
+                "angle_deg": float(p.angle_degrees(17)),
+                "eigenvalue": float(p.eigenvalue_float(17)),
+                "kind": p.kind.label,
+                "multiplicity": p.multiplicity,
+                "exact": p.exact_text,
+            }
+            for p in pairs
+        ],
+        "status": pairs.status,
+    }
+
+
+def report(faces: Iterable[Face]) -> dict[str, Any]:
+    """Return several orders as plain data, keyed by order."""
+    return {"orders": {str(f.order): order_report(real_eigenpairs(f)) for f in faces}}
+
+
+def short(expression: Any, length: int = 60) -> str:
+    """Return the text of an expression, cut to a length."""
+    text = sp.sstr(expression)
+    return text if len(text) <= length else text[: length - 3] + "..."

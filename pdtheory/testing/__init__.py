@@ -1,0 +1,1 @@
+"""Helpers for tests of pdtheory; they need the development dependencies."""
