@@ -1,1 +1,33 @@
-"""Estimation of directions on point sets."""
+"""Estimation of directions on point sets.
+
+The names below are loaded on first use: reading a field needs no compiler.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from pdtheory.pointset.cloud import PointCloud as PointCloud
+    from pdtheory.pointset.estimate import estimate_directions as estimate_directions
+    from pdtheory.pointset.field import DirectionField as DirectionField
+    from pdtheory.pointset.field import OrderDirections as OrderDirections
+
+_HOME = {
+    "DirectionField": "field",
+    "OrderDirections": "field",
+    "PointCloud": "cloud",
+    "estimate_directions": "estimate",
+}
+__all__ = sorted(_HOME)
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOME:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"{__name__}.{_HOME[name]}"), name)
+
+
+def __dir__() -> list[str]:
+    return list(__all__)

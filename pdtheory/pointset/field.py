@@ -125,7 +125,8 @@ class DirectionField:
     status : (P,) int64
         Flags of :class:`pdtheory.conventions.Status`.
     phi : (P, C) complex128
-        Wavejets coefficients in world units, n >= 0; NaN where there are none, 0 above a lowered degree.
+        Wavejets coefficients in world units, n >= 0; NaN where there are none, 0 above a lowered
+        degree.
     phi_order, phi_frequency : (C,) int64
         Order k and frequency n of each column of `phi`.
     directions : mapping of int to OrderDirections
@@ -198,7 +199,7 @@ class DirectionField:
             for name in _ORDER_ARRAYS:
                 arrays[f"order{order}_{name}"] = getattr(rows, name)
         with atomic_path(path) as temporary, temporary.open("wb") as stream:
-            np.savez(stream, **arrays)  # type: ignore[arg-type]
+            np.savez(stream, **arrays)
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> DirectionField:

@@ -1,0 +1,123 @@
+"""One run of the estimator: the prepared input, and the work on one chunk of it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from pdtheory.conventions import wavejets_table
+from pdtheory.pointset.cloud import FloatArray, IntArray
+from pdtheory.pointset.kernels.chunk import Output, make_output, run_chunk
+from pdtheory.pointset.kernels.fit import Settings
+from pdtheory.pointset.kernels.grid import Grid, build_grid, cell_order
+from pdtheory.pointset.kernels.tables import Tables, make_tables
+from pdtheory.pointset.neighbourhoods import Choice, nearest, refuse_crowd
+from pdtheory.pointset.pool import Flag
+
+#: Points are collected this many radii around when the weights depend on the planar distance: the
+#: face of a cube corner rises by sqrt(2) over the plane of the corner, so sqrt(3) radii see it all.
+PLANAR_REACH = 1.75
+
+
+class Engine:
+    """Points, queries and settings, ready for work in any thread.
+
+    Parameters
+    ----------
+    points : (P, 3) float64
+        Finite points, centred.
+    queries : (Q, 3) float64
+        Where to compute, in the same coordinates; may be non-finite.
+    references : (Q, 3) float64
+        Vectors on the side of the normals.
+    choice : Choice
+        The neighbourhoods.
+    orders : (J,) int64
+        Orders to compute.
+    settings : Settings
+        What is asked for.
+    rounding : float
+        Rounding error of the coordinates.
+
+    Attributes
+    ----------
+    visit : (Q,) int64
+        The order in which queries are visited: neighbours in space follow one another.
+    points, choice, orders, settings
+        As given.
+    """
+
+    def __init__(
+        self,
+        points: FloatArray,
+        queries: FloatArray,
+        references: FloatArray,
+        choice: Choice,
+        orders: IntArray,
+        settings: Settings,
+        rounding: float,
+    ) -> None:
+        self.choice = choice
+        self.points = points
+        self.orders = orders
+        self.settings = settings
+        self._rounding = rounding
+        self._columns = len(wavejets_table(settings.degree))
+        self._tables: Tables = make_tables(max(settings.degree, 4))
+        self._reach = PLANAR_REACH if settings.planar else 1.0
+        extent = float(np.ptp(points, axis=0).max())
+        if choice.radius is not None:
+            size = choice.radius * self._reach
+        else:
+            assert choice.neighbours is not None
+            size = extent * float(np.sqrt(choice.neighbours / len(points)))
+        self._grid: Grid
+        self._grid, _ = build_grid(points, size)
+        self._tree: Any = None
+        if choice.radius is None:
+            self._tree = cKDTree(self._grid.points)
+        else:
+            refuse_crowd(int(np.diff(self._grid.starts).max()), choice)
+        self._valid = np.isfinite(queries).all(axis=1)
+        self._queries = np.where(self._valid[:, None], queries, 0.0)
+        self._references = references
+        self.visit = cell_order(self._grid, self._queries)
+
+    def rows(self, size: int) -> IntArray:
+        """Return the first output row of each order for a chunk of `size` points."""
+        return size * np.concatenate(([0], np.cumsum(2 * self.orders)[:-1])).astype(np.int64)
+
+    def warm_up(self) -> None:
+        """Compile or load the kernels in this thread, where Ctrl-C can interrupt that."""
+        self.work(0, 0, np.zeros(1, np.uint8))
+
+    def work(self, start: int, stop: int, flag: Flag) -> tuple[FloatArray, Output]:
+        """Compute the queries ``visit[start:stop]``; returns their radii and the results."""
+        where = self.visit[start:stop]
+        queries = self._queries[where]
+        size = len(where)
+        if self._tree is None:
+            lists = np.empty((0, 0), np.int64)
+            radii = np.full(size, self.choice.radius)
+        else:
+            radii, lists = nearest(self._tree, queries, self.choice.neighbours or 0)
+        output = make_output(size, self.orders, self._columns)
+        run_chunk(
+            self._grid,
+            queries,
+            radii,
+            self._references[where],
+            lists,
+            self._valid[where],
+            self.orders,
+            self.rows(size),
+            self._reach,
+            self._rounding,
+            self.settings,
+            self._tables,
+            flag,
+            output,
+        )
+        return radii, output

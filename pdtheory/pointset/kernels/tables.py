@@ -1,0 +1,121 @@
+"""Constants of one run, and the scratch memory of one thread."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from math import comb
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from pdtheory.conventions import frequencies
+from pdtheory.pointset.kernels.jit import inner
+from pdtheory.pointset.kernels.regression import BLOCK, coefficient_count, table_rows
+from pdtheory.pointset.kernels.roots import DEPTH, SAMPLES
+
+
+class Tables(NamedTuple):
+    """Constants that depend on the degree only.
+
+    Attributes
+    ----------
+    real, imaginary : (K + 1, K // 2 + 1, K + 1) float64
+        phi_{k,n} = sum_b (real + i imaginary)[k, j, b] c_{k-b,b} with n = k mod 2 + 2 j.
+    binomial : (K + 1, K + 1) float64
+        Binomial coefficients.
+    cosines, sines : (K + 1, SAMPLES + 1) float64
+        cos and sin of n theta_j, theta_j = j pi / SAMPLES.
+    """
+
+    real: Any
+    imaginary: Any
+    binomial: Any
+    cosines: Any
+    sines: Any
+
+
+class Scratch(NamedTuple):
+    """Working memory, reused from point to point."""
+
+    X: Any
+    V: Any
+    moments: Any
+    heights: Any
+    G: Any
+    S: Any
+    c: Any
+    step: Any
+    diagonal: Any
+    pivots: Any
+    spare: Any
+    table: Any
+    square: Any
+    frame: Any
+    A: Any
+    Q: Any
+    line: Any
+    re: Any
+    im: Any
+    stack: Any
+    angle: Any
+    kind: Any
+    spreads: Any
+    covariance: Any
+
+
+@lru_cache(maxsize=16)
+def make_tables(degree: int) -> Tables:
+    """Build the constants for degree K = `degree`."""
+    real = np.zeros((degree + 1, degree // 2 + 1, degree + 1))
+    imaginary = np.zeros_like(real)
+    for k in range(degree + 1):
+        for b in range(k + 1):
+            # cos^(k-b) sin^b as powers of u = e^{i theta}: exact integers over 2^k i^b.
+            powers = [
+                sum(
+                    comb(k - b, m - j) * comb(b, j) * (-1) ** j
+                    for j in range(max(0, m - k + b), min(b, m) + 1)
+                )
+                for m in range(k + 1)
+            ]  # coefficient of u^(k - 2 m)
+            unit = (1, -1j, -1, 1j)[b % 4]
+            for j, n in enumerate(frequencies(k)):
+                value = unit * powers[(k - n) // 2] / 2**k
+                real[k, j, b] = value.real
+                imaginary[k, j, b] = value.imag
+    binomial = np.array([[comb(i, j) for j in range(degree + 1)] for i in range(degree + 1)], float)
+    angles = np.outer(np.arange(degree + 1), np.arange(SAMPLES + 1) * (np.pi / SAMPLES))
+    return Tables(real, imaginary, binomial, np.cos(angles), np.sin(angles))
+
+
+@inner
+def make_scratch(degree: int) -> Scratch:
+    """Allocate working memory for degree K = `degree` (at least 4)."""
+    n = coefficient_count(degree)
+    rows = table_rows(degree)
+    return Scratch(
+        np.empty((rows, BLOCK)),
+        np.empty((rows, BLOCK)),
+        np.empty((2 * degree + 10, 2 * degree + 10)),
+        np.empty((2 * degree + 10, 2 * degree + 10)),
+        np.empty((n, n)),
+        np.empty((n, n)),
+        np.empty(n),
+        np.empty(n),
+        np.empty(n),
+        np.empty(n),
+        np.empty(n),
+        np.empty((degree + 1, degree + 1)),
+        np.empty((degree + 2, degree + 2)),
+        np.empty((3, 3)),
+        np.empty((3, 3)),
+        np.empty((3, 3)),
+        np.empty(BLOCK),
+        np.empty(degree // 2 + 1),
+        np.empty(degree // 2 + 1),
+        np.empty((DEPTH + 3, 6)),
+        np.empty(degree + 1),
+        np.empty(degree + 1, dtype=np.int8),
+        np.empty((degree + 1, n)),
+        np.empty((degree + 1, degree + 1)),
+    )

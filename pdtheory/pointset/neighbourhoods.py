@@ -1,0 +1,113 @@
+"""How the size of a neighbourhood is chosen, and whether it can be computed at all."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from pdtheory.errors import InputError
+from pdtheory.pointset.cloud import FloatArray
+
+#: Most neighbours of one point.
+MAX_NEIGHBOURS = 100_000
+
+
+class Choice(NamedTuple):
+    """Exactly one way to choose the neighbourhood; the others are None."""
+
+    radius: float | None
+    neighbours: int | None
+
+    @property
+    def text(self) -> str:
+        """The choice in words, for messages."""
+        if self.neighbours is not None:
+            return f"{self.neighbours} neighbours"
+        return f"the radius {self.radius:g}"
+
+
+def choose(
+    radius: float | None,
+    neighbours: int | None,
+    radius_relative: float | None,
+    diagonal: float,
+    count: int,
+) -> Choice:
+    """Check the three ways to ask for a neighbourhood and reduce them to two.
+
+    Parameters
+    ----------
+    radius, neighbours, radius_relative
+        As given by the user; exactly one must not be None.
+    diagonal : float
+        Diagonal of the bounding box.
+    count : int
+        Number of finite points.
+
+    Raises
+    ------
+    InputError
+        If not exactly one is given, or it cannot be used.
+    """
+    given = sum(value is not None for value in (radius, neighbours, radius_relative))
+    if given != 1:
+        raise InputError(
+            f"give exactly one of radius, neighbours and radius_relative; {given} were given."
+        )
+    if neighbours is not None:
+        if not isinstance(neighbours, (int, np.integer)) or isinstance(neighbours, bool):
+            raise InputError(f"neighbours must be a whole number, not {neighbours!r}.")
+        if neighbours < 3:
+            raise InputError(f"{neighbours} neighbours are too few; give at least 8.")
+        if neighbours > MAX_NEIGHBOURS:
+            raise InputError(
+                f"{neighbours} neighbours are too many; give at most {MAX_NEIGHBOURS}."
+            )
+        return Choice(None, min(int(neighbours), count))
+    size = radius if radius is not None else radius_relative
+    name = "radius" if radius is not None else "radius_relative"
+    if not isinstance(size, (int, float, np.integer, np.floating)) or isinstance(size, bool):
+        raise InputError(f"{name} must be a number, not {size!r}.")
+    if not np.isfinite(size) or size <= 0:
+        raise InputError(f"{name} must be positive and finite, not {size}.")
+    if radius is not None:
+        return Choice(float(radius), None)
+    if diagonal <= 0:
+        raise InputError("all points are equal, so a radius relative to their extent is zero.")
+    return Choice(float(size) * diagonal, None)
+
+
+def refuse_crowd(occupancy: int, choice: Choice) -> None:
+    """Refuse a radius that catches more points than can be worked on.
+
+    All points of a cell of half the radius are neighbours of one another, so the fullest cell is a
+    lower bound that costs nothing.
+
+    Raises
+    ------
+    InputError
+        If the bound exceeds the limit.
+    """
+    if occupancy > MAX_NEIGHBOURS:
+        raise InputError(
+            f"{choice.text} catches at least {occupancy} points around one point, and the limit is "
+            f"{MAX_NEIGHBOURS}; give a smaller radius, or thin the points."
+        )
+
+
+def nearest(tree: Any, queries: FloatArray, count: int) -> tuple[FloatArray, Any]:
+    """Return distance to the `count`-th nearest point (Q,) and the indices of all (Q, count)."""
+    distances, indices = tree.query(queries, k=count)
+    if count == 1:
+        distances, indices = distances[:, None], indices[:, None]
+    return distances[:, -1], np.ascontiguousarray(indices, dtype=np.int64)
+
+
+def suggest_radius(points: FloatArray, degree: int) -> str:
+    """Return advice in words: a radius that holds twice the coefficients at half of the points."""
+    wanted = min((degree + 1) * (degree + 2), len(points))
+    sample = points[:: max(1, len(points) // 1000)]
+    distances, _ = nearest(cKDTree(points), sample, wanted)
+    return f"a radius of {float(np.median(distances)):.3g} holds {wanted} points at half of them"

@@ -1,0 +1,82 @@
+"""Chunks of work on threads, with progress, cancelling and bounded memory."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator
+from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+from typing import TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+from pdtheory.errors import InputError
+
+T = TypeVar("T")
+Progress = Callable[[float, str], None]
+Flag = npt.NDArray[np.uint8]
+
+#: Seconds between looks at the callback and at Ctrl-C while the threads work.
+_PULSE = 0.1
+
+
+def thread_count(threads: int | None) -> int:
+    """Return the number of threads to use; None means the cores that this process may use."""
+    if threads is None:
+        try:
+            return max(1, len(os.sched_getaffinity(0)))
+        except AttributeError:  # not on this platform
+            return max(1, os.cpu_count() or 1)
+    if threads < 1:
+        raise InputError(f"{threads} threads cannot work; give a positive number or None.")
+    return threads
+
+
+def run_chunks(
+    work: Callable[[int, int, Flag], T],
+    total: int,
+    size: int,
+    threads: int,
+    progress: Progress | None,
+    text: str,
+) -> Iterator[tuple[int, int, T]]:
+    """Yield (start, stop, work(start, stop, flag)) over chunks of ``range(total)`` as they finish.
+
+    At most three chunks for each thread are under way or waiting to be taken. If the consumer
+    stops, the callback raises, or Ctrl-C is pressed, `flag[0]` becomes 1; the work must look at it
+    often.
+
+    Parameters
+    ----------
+    work
+        Called in a thread.
+    total, size
+        Number of items, and items in a chunk.
+    threads
+        Number of threads.
+    progress
+        Called in this thread with the fraction done and `text`.
+    text
+        What is being done.
+    """
+    flag: Flag = np.zeros(1, np.uint8)
+    spans = iter([(start, min(start + size, total)) for start in range(0, total, size)])
+    pending: dict[Future[T], tuple[int, int]] = {}
+    done = 0
+    pool = ThreadPoolExecutor(threads, thread_name_prefix="pdtheory")
+    try:
+        while True:
+            while len(pending) < 3 * threads and (span := next(spans, None)) is not None:
+                pending[pool.submit(work, *span, flag)] = span
+            if not pending:
+                break
+            finished, _ = wait(pending, timeout=_PULSE, return_when=FIRST_COMPLETED)
+            for future in finished:
+                start, stop = pending.pop(future)
+                done += stop - start
+                yield start, stop, future.result()
+            if progress is not None:
+                progress(done / total, text)
+    finally:
+        flag[0] = 1
+        pool.shutdown(wait=True, cancel_futures=True)
