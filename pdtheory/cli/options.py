@@ -110,5 +110,10 @@ def progress_bar(title: str, *, quiet: bool = False) -> Iterator[Report]:
         def report(fraction: float, text: str) -> None:
             progress.update(task, completed=fraction, description=text or title)
 
-        yield report
+        try:
+            yield report
+        except BaseException:
+            # An error speaks for itself; a bar that stopped halfway would only surround it.
+            progress.live.transient = True
+            raise
         progress.update(task, completed=1.0)
