@@ -5,6 +5,7 @@ from pdtheory.exact.balls import Enclosure
 from pdtheory.exact.eigenpairs import EigenPair, EigenPairs, real_eigenpairs
 from pdtheory.exact.expression import parse_expression
 from pdtheory.exact.faces import BinaryForm, Face, SymmetricTensor, WavejetsRow
+from pdtheory.exact.jets import SurfaceJet, explicit_jet, implicit_jet, parametric_jet
 from pdtheory.exact.report import report
 from pdtheory.exact.series import differential_tensor, taylor_forms
 
@@ -15,9 +16,13 @@ __all__ = [
     "Enclosure",
     "Face",
     "RealAlgebraic",
+    "SurfaceJet",
     "SymmetricTensor",
     "WavejetsRow",
     "differential_tensor",
+    "explicit_jet",
+    "implicit_jet",
+    "parametric_jet",
     "parse_expression",
     "real_eigenpairs",
     "report",

@@ -59,6 +59,15 @@ class Series:
         """Return the series times an element of the coefficient field."""
         return Series(tuple(a * factor for a in self.terms))
 
+    def truncate(self, degree: int) -> Series:
+        """Return the series modulo a degree lower by one than the first term left out."""
+        return Series(self.terms[: degree + 1])
+
+    def extend(self, degree: int) -> Series:
+        """Return the series padded with zeros up to a degree."""
+        zero = self.terms[0] * 0
+        return Series((*self.terms, *([zero] * (degree - self.degree))))
+
     def without_constant(self) -> Series:
         """Return the series minus its constant term."""
         return Series((self.terms[0] * 0, *self.terms[1:]))
@@ -73,7 +82,7 @@ class Series:
         return value
 
     def substitute(self, x: Series, y: Series) -> Series:
-        """Return self(x, y) for two series without constant term."""
+        """Return self(x, y) for two series of the same degree without constant term."""
         result = self.scale(0)
         one = Series((x.terms[0] * 0 + 1, *(t * 0 for t in x.terms[1:])))
         x_powers, y_powers = [one], [one]
@@ -121,6 +130,15 @@ class Field:
         linear = self.x * self.element(x) + self.y * self.element(y)
         return Series((start.terms[0], linear, *start.terms[2:]))
 
+    def variables(
+        self, expansions: Sequence[Expansion], x: Any, y: Any, degree: int
+    ) -> dict[Any, Series]:
+        """Return the series of two variables about the point of some expansions."""
+        needed = set().union(*(e.needed for e in expansions))
+        point = expansions[0].point
+        start = {w: point[w] if w in needed else 0 for w in (x, y)}
+        return {x: self.affine(start[x], 1, 0, degree), y: self.affine(start[y], 0, 1, degree)}
+
     def forms(self, series: Series) -> list[BinaryForm]:
         """Return T_k v^k = k! times the homogeneous part, for k = 0 to K."""
         result = []
@@ -143,6 +161,8 @@ class Expansion:
         Exact value of each variable at the point of expansion.
     degree
         Degree K of the truncation.
+    constant_matters
+        Whether the constant term will be used; if not, it may come out wrong.
 
     Raises
     ------
@@ -150,12 +170,23 @@ class Expansion:
         If the expression is not smooth at the point, or holds something that has no derivative.
     """
 
-    def __init__(self, expression: Any, point: Mapping[Any, Any], degree: int) -> None:
+    def __init__(
+        self,
+        expression: Any,
+        point: Mapping[Any, Any],
+        degree: int,
+        *,
+        constant_matters: bool = True,
+    ) -> None:
         self.expression = exact(expression)
         self.point = {symbol: exact(value) for symbol, value in point.items()}
         self.degree = degree
         self._univariate: dict[Any, tuple[Any, list[Any]]] = {}
         self._collect(self.expression)
+        #: Variables whose value at the point enters the arithmetic. In sin(u) it does not: only
+        #: sin and cos of it do, so that a point such as pi/3 brings no pi into the field.
+        self.needed: set[Any] = set()
+        self._find_needed(self.expression, constant_matters)
 
     @property
     def constants(self) -> list[Any]:
@@ -164,7 +195,7 @@ class Expansion:
         leaves = [
             e for e in _constant_leaves(self.expression, set(self.point)) if not e.is_Rational
         ]
-        return [*values, *leaves, *self.point.values()]
+        return [*values, *leaves, *(self.point[s] for s in self.needed)]
 
     def evaluate(self, field: Field, arguments: Mapping[Any, Series]) -> Series:
         """Return the series of the expression for series put in place of the variables."""
@@ -226,6 +257,22 @@ class Expansion:
             coefficients.append(sp.expand(value))
         self._univariate[node] = (argument, coefficients)
 
+    def _find_needed(self, node: Any, constant_matters: bool) -> None:
+        variables = set(self.point)
+        if node.is_Symbol:
+            if constant_matters and node in variables:
+                self.needed.add(node)
+        elif node in self._univariate:
+            self._find_needed(self._univariate[node][0], False)
+        elif node.is_Add:
+            for child in node.args:
+                self._find_needed(child, constant_matters)
+        else:
+            moving = [child for child in node.args if child.free_symbols & variables]
+            for child in moving:
+                product = len(moving) > 1 or node.is_Pow
+                self._find_needed(child, constant_matters or product)
+
 
 @lru_cache(maxsize=4096)
 def _derivative(function: Any, order: int) -> Any:
@@ -285,7 +332,7 @@ def taylor_forms(
     (x, y), (x0, y0) = variables, (exact(c) for c in at)
     expansion = Expansion(f, {x: x0, y: y0}, degree)
     field = Field(expansion.constants)
-    arguments = {x: field.affine(x0, 1, 0, degree), y: field.affine(y0, 0, 1, degree)}
+    arguments = field.variables([expansion], x, y, degree)
     return field.forms(expansion.evaluate(field, arguments))
 
 
