@@ -1,0 +1,72 @@
+"""The ``pdtheory`` command."""
+
+from __future__ import annotations
+
+import sys
+from typing import Annotated, Any
+
+import typer
+from typer.core import TyperGroup
+
+from pdtheory import __version__
+from pdtheory.cli.demo import demo
+from pdtheory.cli.draw import draw
+from pdtheory.cli.eigen import eigen
+from pdtheory.cli.estimate import estimate
+from pdtheory.cli.sample import sample, surfaces
+from pdtheory.errors import PdtheoryError
+
+
+class _Refusing(TyperGroup):
+    """Turn our own errors into one sentence and exit code 2."""
+
+    def invoke(self, ctx: Any) -> Any:
+        try:
+            return super().invoke(ctx)
+        except PdtheoryError as error:
+            typer.echo(f"pdtheory: {error}", err=True)
+            raise typer.Exit(2) from error
+        except KeyboardInterrupt:
+            typer.echo("pdtheory: interrupted; nothing was left half-written.", err=True)
+            raise typer.Exit(130) from None
+
+
+app = typer.Typer(
+    cls=_Refusing,
+    help="Principal directions of arbitrary order on surfaces: exact theory and computation.",
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,  # Rich help would double the start-up time
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"pdtheory {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _main(
+    version: Annotated[
+        bool,
+        typer.Option(
+            "--version", callback=_version, is_eager=True, help="Print the version and stop."
+        ),
+    ] = False,
+) -> None:
+    pass
+
+
+for command in (demo, eigen, estimate, draw, sample, surfaces):
+    app.command(command.__name__)(command)
+
+
+def run() -> None:
+    """Run the command line; the entry point of the installed script."""
+    for stream in (sys.stdout, sys.stderr):
+        # A Windows console with a legacy code page must not stop at a Greek letter.
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="replace")
+    app()
