@@ -1,0 +1,267 @@
+"""A direction field as a picture or a Blender file, drawn by Blender in a process of its own.
+
+Blender as a module cannot be interrupted while it renders, writes to the terminal, keeps its memory
+and may fall over at the end of a process. Apart, none of that reaches the caller.
+"""
+
+from __future__ import annotations
+
+import os
+import pickle
+import subprocess
+import sys
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import BinaryIO, Final, cast
+
+import numpy as np
+
+from pdtheory.atomic import atomic_path
+from pdtheory.blender.view import View, natural_view
+from pdtheory.conventions import Kind
+from pdtheory.errors import ComputationError, InputError
+from pdtheory.pointset.cloud import FloatArray, PointCloud
+from pdtheory.pointset.field import DirectionField
+
+Progress = Callable[[float, str], None]
+
+SUFFIXES: Final = (".png", ".blend")
+
+_KINDS: Final = {
+    "max": frozenset({Kind.MAXIMUM}),
+    "min": frozenset({Kind.MINIMUM}),
+    "both": frozenset({Kind.MAXIMUM, Kind.MINIMUM}),
+}
+
+
+@dataclass(frozen=True)
+class DrawingJob:
+    """All that the drawing process needs to know.
+
+    Attributes
+    ----------
+    field : DirectionField
+        The directions.
+    cloud : PointCloud or None
+        The surface below them; its faces if it has some, else its points; None for the points of
+        the field.
+    target : str
+        The file to write, PNG or .blend by its suffix.
+    orders : tuple of int
+        Orders to draw.
+    kinds : frozenset of Kind
+        What to draw of each order.
+    strokes : int
+        About how many points carry strokes.
+    largest_uncertainty : float
+        Directions with a larger standard deviation (radians) are left out.
+    view : View
+        Where the camera stands.
+    resolution : (int, int)
+        Width and height of the picture in pixels.
+    samples : int
+        Rays for each pixel.
+    """
+
+    field: DirectionField
+    cloud: PointCloud | None
+    target: str
+    orders: tuple[int, ...]
+    kinds: frozenset[Kind]
+    strokes: int
+    largest_uncertainty: float
+    view: View
+    resolution: tuple[int, int]
+    samples: int
+
+    @property
+    def surface_points(self) -> FloatArray:
+        """(N, 3) finite points of what is drawn."""
+        points = self.field.points if self.cloud is None else self.cloud.points
+        return points[np.isfinite(points).all(axis=1)]
+
+
+def draw_field(
+    field: DirectionField,
+    cloud: PointCloud | None,
+    output: str | os.PathLike[str],
+    *,
+    orders: Iterable[int] | None = None,
+    kind: str = "max",
+    strokes: int = 800,
+    largest_uncertainty: float = 0.35,
+    up: str | None = None,
+    azimuth: float | None = None,
+    elevation: float | None = None,
+    resolution: tuple[int, int] = (1200, 900),
+    samples: int = 12,
+    progress: Progress | None = None,
+) -> None:
+    """Draw directions on their surface with Blender, as a picture on white or as a Blender file.
+
+    Of a dense field an even selection of points carries strokes; where several orders are drawn
+    the points are dealt to them in turn. In a .blend all of it can still be changed in the
+    modifier.
+
+    Parameters
+    ----------
+    field
+        The directions.
+    cloud
+        The surface they lie on, if it is known; otherwise the points of the field are drawn.
+    output
+        The file to write: ``.png`` or ``.blend``.
+    orders
+        Orders to draw; all of the field by default.
+    kind
+        ``max``, ``min`` or ``both``; minima are thinner where both are drawn.
+    strokes
+        About how many points carry strokes.
+    largest_uncertainty
+        Directions whose standard deviation is larger (radians) are left out.
+    up, azimuth, elevation
+        The axis of the data that points up, and the camera's place in degrees; chosen from the
+        shape by default (:func:`pdtheory.blender.view.natural_view`).
+    resolution
+        Width and height of the picture in pixels.
+    samples
+        Rays for each pixel.
+    progress
+        Called with a fraction and a text; it may raise :class:`pdtheory.errors.Cancelled`.
+
+    Raises
+    ------
+    InputError
+        If an argument cannot be used or there is nothing to draw.
+    FileAccessError
+        If the file cannot be written.
+    MissingDependencyError
+        If Blender's Python module is not installed.
+    ComputationError
+        If Blender fails.
+    """
+    job = _job(
+        field,
+        cloud,
+        Path(output),
+        tuple(field.orders if orders is None else orders),
+        kind,
+        strokes=strokes,
+        largest_uncertainty=largest_uncertainty,
+        resolution=resolution,
+        samples=samples,
+        place=(up, azimuth, elevation),
+    )
+    with atomic_path(output) as temporary:
+        _run(job, temporary, progress or (lambda fraction, text: None))
+
+
+def _job(
+    field: DirectionField,
+    cloud: PointCloud | None,
+    output: Path,
+    orders: tuple[int, ...],
+    kind: str,
+    *,
+    strokes: int,
+    largest_uncertainty: float,
+    resolution: tuple[int, int],
+    samples: int,
+    place: tuple[str | None, float | None, float | None],
+) -> DrawingJob:
+    if output.suffix.lower() not in SUFFIXES:
+        raise InputError(
+            f"cannot draw into {output}: the suffix {output.suffix or '(none)'} is not known; "
+            f"use {' or '.join(SUFFIXES)}."
+        )
+    if kind not in _KINDS:
+        raise InputError(f"the kind is {kind!r}; give max, min or both.")
+    if strokes < 1:
+        raise InputError(f"the number of strokes is {strokes}; give at least 1.")
+    if samples < 1:
+        raise InputError(f"the number of samples is {samples}; give at least 1.")
+    if not all(16 <= side <= 16384 for side in resolution):
+        raise InputError(
+            f"the picture is {resolution[0]} x {resolution[1]}; give 16 to 16384 pixels a side."
+        )
+    if not largest_uncertainty >= 0.0:
+        raise InputError(
+            f"the largest uncertainty is {largest_uncertainty}; give an angle of at least 0."
+        )
+    kinds = _KINDS[kind]
+    if not any(np.isin(field[order].kind, [int(k) for k in kinds]).any() for order in orders):
+        named = ", ".join(map(str, orders)) or "(none)"
+        raise InputError(f"the field holds no directions of order {named} to draw (kind {kind}).")
+    points = field.points if cloud is None else cloud.points
+    finite = np.isfinite(points).all(axis=1)
+    if finite.sum() < 3:
+        raise InputError("the surface has fewer than three finite points; nothing to draw.")
+    up, azimuth, elevation = place
+    view = natural_view(
+        points[finite], field.frames[:, 2], up=up, azimuth=azimuth, elevation=elevation
+    )
+    return DrawingJob(
+        field=field,
+        cloud=cloud,
+        target=output.name,
+        orders=orders,
+        kinds=kinds,
+        strokes=strokes,
+        largest_uncertainty=largest_uncertainty,
+        view=view,
+        resolution=resolution,
+        samples=samples,
+    )
+
+
+def _run(job: DrawingJob, path: Path, progress: Progress) -> None:
+    """Let a process of its own draw `job` into `path`; it is killed if this one is interrupted."""
+    import pdtheory
+
+    progress(0.0, "starting Blender")
+    home = str(Path(pdtheory.__file__).parents[1])
+    search = os.pathsep.join(filter(None, (home, os.environ.get("PYTHONPATH"))))
+    worker = subprocess.Popen(
+        [sys.executable, "-m", "pdtheory.blender.worker", str(path)],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        env={**os.environ, "PYTHONPATH": search},
+    )
+    try:
+        finished = _converse(worker, job, progress)
+        # What happens while Blender tidies up does not matter any more.
+        if finished:
+            return
+        code = worker.wait()
+        raise ComputationError(
+            f"Blender stopped without a picture (exit code {code}); is there enough memory?"
+        )
+    finally:
+        worker.kill()
+        worker.wait()
+        for pipe in (worker.stdin, worker.stdout):
+            if pipe is not None:
+                pipe.close()
+
+
+def _converse(worker: subprocess.Popen[bytes], job: DrawingJob, progress: Progress) -> bool:
+    """Send the job, pass on what the worker reports; return whether it finished."""
+    asked, told = cast(BinaryIO, worker.stdin), cast(BinaryIO, worker.stdout)
+    try:
+        pickle.dump(job, asked, protocol=pickle.HIGHEST_PROTOCOL)
+        asked.flush()
+    except BrokenPipeError:
+        # It ended before it listened; what it said, if anything, follows.
+        pass
+    while True:
+        try:
+            message = pickle.load(told)
+        except (EOFError, pickle.UnpicklingError):
+            return False
+        if message is None:
+            return True
+        if isinstance(message, Exception):
+            raise message
+        progress(*message)

@@ -1,0 +1,101 @@
+"""Where the camera stands, chosen from the shape where nothing is said."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from pdtheory.errors import InputError
+from pdtheory.pointset.cloud import FloatArray
+
+#: Rows right, back, up of the stage for each axis that may point up. The front is -y where z is up,
+#: as in Blender, and +z where y is up, as in most scans.
+_STAGE = {
+    "x": [[0, 1, 0], [0, 0, 1], [1, 0, 0]],
+    "y": [[1, 0, 0], [0, 0, -1], [0, 1, 0]],
+    "z": [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
+}
+
+#: Shapes flatter than this lie on the ground.
+_FLAT = 0.6
+
+#: Above this length of the mean normal a surface is seen from one side only, like a graph z(x, y).
+_ONE_SIDED = 0.5
+
+
+@dataclass(frozen=True)
+class View:
+    """Where the camera stands.
+
+    Attributes
+    ----------
+    up : str
+        The axis of the data that points up in the picture: ``x``, ``y`` or ``z``.
+    azimuth : float
+        Degrees by which the camera goes around to the right of the front.
+    elevation : float
+        Degrees by which it stands above the horizon.
+
+    Raises
+    ------
+    InputError
+        If the axis is not one of the three, or the camera would stand below the ground.
+    """
+
+    up: str = "z"
+    azimuth: float = 30.0
+    elevation: float = 16.0
+
+    def __post_init__(self) -> None:
+        if self.up not in _STAGE:
+            raise InputError(f"the axis that points up is {self.up!r}; give x, y or z.")
+        if not 0.0 <= self.elevation <= 90.0:
+            raise InputError(f"the elevation is {self.elevation:g}; give 0 to 90 degrees.")
+        if not np.isfinite(self.azimuth):
+            raise InputError(f"the azimuth is {self.azimuth}; give degrees.")
+
+    def axes(self) -> FloatArray:
+        """Return the rows right, back, up of the stage in data coordinates, (3, 3)."""
+        return np.array(_STAGE[self.up], dtype=np.float64)
+
+
+def natural_view(
+    points: FloatArray,
+    normals: FloatArray | None = None,
+    *,
+    up: str | None = None,
+    azimuth: float | None = None,
+    elevation: float | None = None,
+) -> View:
+    """Choose a three-quarter view from the shape; what is given is kept.
+
+    Graphs are seen from the side their normals point to, flat things lie down, and all else stands
+    with y up, as scans do.
+
+    Parameters
+    ----------
+    points : (P, 3) float64
+        Finite points of the surface.
+    normals : (P, 3) float64, optional
+        Their normals.
+    up, azimuth, elevation
+        As in :class:`View`.
+    """
+    mean = np.zeros(3)
+    if normals is not None and len(normals):
+        mean = np.nan_to_num(normals).mean(axis=0)
+    graph = float(np.linalg.norm(mean)) > _ONE_SIDED
+    extent = points.max(axis=0) - points.min(axis=0)
+    thin = np.argsort(extent)
+    flat = bool(extent[thin[0]] < _FLAT * extent[thin[1]])
+    if up is None:
+        if graph:
+            up = "xyz"[int(np.argmax(np.abs(mean)))]
+        elif flat:
+            up = "xyz"[int(thin[0])]
+        else:
+            up = "y"
+    if elevation is None:
+        elevation = 42.0 if graph else 30.0 if flat else 16.0
+    return View(up, 30.0 if azimuth is None else azimuth, elevation)

@@ -1,0 +1,81 @@
+"""``pdtheory draw``: a direction field as a picture or a Blender file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from pdtheory.cli.options import check_target, parse_orders, progress_bar
+from pdtheory.errors import InputError
+
+
+def draw(
+    field: Annotated[Path, typer.Argument(help="Direction field (NPZ) to draw.")],
+    output: Annotated[
+        Path, typer.Option("--output", "-o", help="Picture (.png) or Blender file (.blend).")
+    ],
+    mesh: Annotated[
+        Path | None,
+        typer.Option(help="Surface to draw the directions on; without it their points are drawn."),
+    ] = None,
+    orders: Annotated[
+        str | None, typer.Option(help="Orders to draw, such as 2,3; all if left out.")
+    ] = None,
+    kind: Annotated[str, typer.Option(help="Directions to draw: max, min or both.")] = "max",
+    strokes: Annotated[int, typer.Option(help="About how many points carry strokes.", min=1)] = 800,
+    largest_uncertainty: Annotated[
+        float, typer.Option(help="Leave out directions less certain than this, in degrees.")
+    ] = 20.0,
+    up: Annotated[
+        str | None, typer.Option(help="Axis that points up: x, y or z; by the shape if left out.")
+    ] = None,
+    azimuth: Annotated[
+        float | None, typer.Option(help="Degrees the camera goes round to the right of the front.")
+    ] = None,
+    elevation: Annotated[
+        float | None, typer.Option(help="Degrees the camera stands above the horizon.")
+    ] = None,
+    size: Annotated[str, typer.Option(help="Width x height of the picture.")] = "1200x900",
+    samples: Annotated[int, typer.Option(help="Rays for each pixel.", min=1)] = 12,
+    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No progress bar.")] = False,
+) -> None:
+    """Draw directions on their surface with Blender.
+
+    Example: pdtheory draw field.npz --mesh scan.ply -o picture.png --orders 2,3
+    """
+    from math import radians
+
+    from pdtheory.blender import draw_field
+    from pdtheory.io import read_cloud
+    from pdtheory.pointset.field import DirectionField
+
+    check_target(output, (".png", ".blend"))
+    wanted = None if orders is None else parse_orders(orders)
+    resolution = _parse_size(size)
+    directions = DirectionField.load(field)
+    cloud = None if mesh is None else read_cloud(mesh)
+    with progress_bar("Drawing", quiet=quiet) as report:
+        draw_field(
+            directions,
+            cloud,
+            output,
+            orders=wanted,
+            kind=kind,
+            strokes=strokes,
+            largest_uncertainty=radians(largest_uncertainty),
+            up=up,
+            azimuth=azimuth,
+            elevation=elevation,
+            resolution=resolution,
+            samples=samples,
+            progress=report,
+        )
+
+
+def _parse_size(text: str) -> tuple[int, int]:
+    width, times, height = text.lower().partition("x")
+    if not times or not width.strip().isdecimal() or not height.strip().isdecimal():
+        raise InputError(f"cannot read the size {text!r}; write it as 1280x960.")
+    return int(width), int(height)
