@@ -59,8 +59,10 @@ def _main(
     pass
 
 
-for command in (demo, eigen, estimate, draw, sample, surfaces):
+for command in (demo, estimate, draw, sample, surfaces):
     app.command(command.__name__)(command)
+# A formula may begin with a minus sign and is no option then.
+app.command("eigen", context_settings={"ignore_unknown_options": True})(eigen)
 
 
 def run() -> None:
