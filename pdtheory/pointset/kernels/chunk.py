@@ -11,11 +11,11 @@ from pdtheory.pointset.kernels.fit import Fit, Settings, fit_point
 from pdtheory.pointset.kernels.frames import output_frame
 from pdtheory.pointset.kernels.grid import COLUMNS, Grid, find_runs, gather, gather_listed, locate
 from pdtheory.pointset.kernels.jit import Array, IntArray, inner, kernel
+from pdtheory.pointset.kernels.moments import sum_moments
 from pdtheory.pointset.kernels.regression import (
     coefficient_count,
     degree_start,
     fill_gram,
-    sum_moments,
 )
 from pdtheory.pointset.kernels.roots import critical_angles, evaluate, value
 from pdtheory.pointset.kernels.tables import Scratch, Tables, make_scratch
@@ -176,7 +176,7 @@ def _write_order(
         s.re[j] /= largest
         s.im[j] /= largest
     found = critical_angles(
-        s.re, s.im, order, tables.cosines, tables.sines, s.stack, s.angle, s.kind
+        s.re, s.im, order, tables.cosines, tables.sines, s.samples, s.stack, s.angle, s.kind
     )
     if settings.uncertainty:
         order_covariance(
@@ -204,7 +204,7 @@ def _write_order(
         angle_std = np.nan
         g_std = np.nan
         if settings.uncertainty:
-            slope, height = direction_variances(s.covariance, order, theta)
+            slope, height = direction_variances(s.covariance, order, theta, s.spreads)
             curvature = abs(evaluate(s.re, s.im, order, theta)[1]) * largest
             angle_std = noise * np.sqrt(slope) / curvature if curvature > 0.0 else np.inf
             g_std = noise * np.sqrt(height) * unit
@@ -226,16 +226,16 @@ def _write_order(
 def _prepare_uncertainty(cloud: Array, n: int, fit: Fit, settings: Settings, s: Scratch) -> float:
     """Set up ``s.S`` for the covariances; returns the standard deviation of the heights."""
     size = coefficient_count(fit.top)
-    weights = cloud[11] if settings.robust else cloud[4]
-    squared = cloud[10]
+    weights = cloud[10] if settings.robust else cloud[4]
+    squared = cloud[9]
     total = 0.0
     squares = 0.0
     for i in range(n):
         squared[i] = weights[i] * weights[i]
         total += weights[i]
         squares += weights[i] * cloud[8, i] * cloud[8, i]
-    sum_moments(cloud[5], cloud[6], squared, cloud[9], n, 2 * fit.top, s.X, s.V, s.moments)
-    fill_gram(s.moments, fit.top, s.S)
+    sum_moments(cloud[5], cloud[6], squared, n, 2 * fit.top, s.X, s.V, s.moments)
+    fill_gram(s.moments, fit.top, s.offsets, s.S)
     # The factor of S overwrites the diagonal of G, which the rounding bound still needs.
     used = spread(s.G, s.S, fit.first, size, s.step, s.spare)
     left = total - used
@@ -297,7 +297,7 @@ def run_chunk(
     """
     scratch = make_scratch(max(settings.degree, 4))
     capacity = 1024
-    cloud = np.empty((12, capacity))
+    cloud = np.empty((11, capacity))
     runs = np.empty((COLUMNS, 2), dtype=np.int64)
     count = total = 0
     last = np.array([-(2**60), 0, 0], dtype=np.int64)
@@ -325,7 +325,7 @@ def run_chunk(
                 count, total = find_runs(grid, here[0], here[1], here[2], runs)
         if total + 1 > capacity:
             capacity = 2 * (total + 1)
-            cloud = np.empty((12, capacity))
+            cloud = np.empty((11, capacity))
         if not radius > 0.0:
             out.neighbours[q] = total
             out.status[q] = _UNANSWERED

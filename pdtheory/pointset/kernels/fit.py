@@ -9,17 +9,20 @@ import numpy as np
 from pdtheory.conventions import Status
 from pdtheory.pointset.kernels.frames import face, principal_frame, tilt
 from pdtheory.pointset.kernels.jit import Array, inner
+from pdtheory.pointset.kernels.moments import (
+    subtract_polynomial,
+    sum_moments,
+    sum_normal_equations,
+)
 from pdtheory.pointset.kernels.regression import (
     coefficient_count,
     degree_start,
     factor,
     fill_gram,
     fill_right_hand_side,
-    residuals,
     shift,
     solve_lower,
     solve_transposed,
-    sum_moments,
 )
 from pdtheory.pointset.kernels.tables import Scratch
 
@@ -192,16 +195,10 @@ def regress(cloud: Array, weights: Array, n: int, degree: int, s: Scratch) -> tu
         The degree reached and its smallest relative pivot.
     """
     size = coefficient_count(degree)
-    x = cloud[5]
-    y = cloud[6]
-    z = cloud[7]
-    ones = cloud[9]
-    sum_moments(x, y, weights, ones, n, 2 * degree, s.X, s.V, s.moments)
-    scaled = cloud[10]
-    for i in range(n):
-        scaled[i] = weights[i] * z[i]
-    sum_moments(x, y, scaled, ones, n, degree, s.X, s.V, s.heights)
-    fill_gram(s.moments, degree, s.G)
+    sum_normal_equations(
+        cloud[5], cloud[6], weights, cloud[7], n, degree, s.X, s.V, s.moments, s.heights
+    )
+    fill_gram(s.moments, degree, s.offsets, s.G)
     fill_right_hand_side(s.heights, degree, s.c)
     factor(s.G, size, s.diagonal, s.pivots)
     reached = -1
@@ -225,11 +222,11 @@ def regress(cloud: Array, weights: Array, n: int, degree: int, s: Scratch) -> tu
 @inner
 def refine(cloud: Array, weights: Array, n: int, degree: int, first: int, s: Scratch) -> None:
     """Improve ``s.c`` by solving for the residuals of the samples once more."""
-    residuals(cloud[5], cloud[6], cloud[7], cloud[9], n, degree, s.c, s.X, s.line, cloud[8])
-    scaled = cloud[10]
+    subtract_polynomial(cloud[5], cloud[6], cloud[7], n, degree, s.c, s.X, s.line, cloud[8])
+    products = cloud[9]
     for i in range(n):
-        scaled[i] = weights[i] * cloud[8, i]
-    sum_moments(cloud[5], cloud[6], scaled, cloud[9], n, degree, s.X, s.V, s.heights)
+        products[i] = weights[i] * cloud[8, i]
+    sum_moments(cloud[5], cloud[6], products, n, degree, s.X, s.V, s.heights)
     fill_right_hand_side(s.heights, degree, s.step)
     size = coefficient_count(degree)
     solve_transposed(s.G, first, size, s.step)
@@ -239,36 +236,58 @@ def refine(cloud: Array, weights: Array, n: int, degree: int, first: int, s: Scr
 
 
 @inner
-def untilt(c: Array, degree: int, frame: Array, table: Array, square: Array) -> None:
-    """Turn frame and jet so that the gradient at the origin vanishes, to first order in it.
+def _turn(
+    source: Array, target: Array, degree: int, step: float, a: float, b: float, square: Array
+) -> None:
+    """Add `step` times the rate of change of the jet `source`, when its frame turns, to `target`.
 
-    Turning the frame by the small gradient (a, b) takes z = h(x, y) to
-    h - (a d/dx + b d/dy)(h^2) / 2 - (a x + b y), truncated at the degree.
+    Turning the frame about the origin towards the unit direction (a, b) changes the heights h at
+    the rate -(a d/dx + b d/dy)(h^2) / 2 - (a x + b y). Coefficients stand at the powers of x and y.
     """
-    size = coefficient_count(degree)
-    a = c[size - 3]
-    b = c[size - 2]
-    tilt(frame, a, b)
-    row = 0
-    for d in range(degree, -1, -1):
-        for j in range(d + 1):
-            table[d - j, j] = c[row]
-            row += 1
     for i in range(degree + 2):
         for j in range(degree + 2 - i):
             square[i, j] = 0.0
     for i1 in range(degree + 1):
         for j1 in range(degree + 1 - i1):
-            f = table[i1, j1]
+            f = source[i1, j1]
             left = degree + 1 - i1 - j1
             for i2 in range(min(left, degree) + 1):
                 for j2 in range(min(left, degree) - i2 + 1):
-                    square[i1 + i2, j1 + j2] += f * table[i2, j2]
+                    square[i1 + i2, j1 + j2] += f * source[i2, j2]
+    half = 0.5 * step
+    for i in range(degree + 1):
+        for j in range(degree + 1 - i):
+            target[i, j] -= half * (a * (i + 1) * square[i + 1, j] + b * (j + 1) * square[i, j + 1])
+    target[1, 0] -= step * a
+    target[0, 1] -= step * b
+
+
+@inner
+def untilt(c: Array, degree: int, frame: Array, table: Array, middle: Array, square: Array) -> None:
+    """Turn frame and jet so that the gradient at the origin vanishes.
+
+    The jet follows the rotation by one midpoint step, so the error is of third order in the slope.
+    """
+    size = coefficient_count(degree)
+    slope = np.hypot(c[size - 3], c[size - 2])
+    if slope == 0.0:
+        return
+    a = c[size - 3] / slope
+    b = c[size - 2] / slope
+    tilt(frame, c[size - 3], c[size - 2])
+    angle = np.arctan(slope)
     row = 0
     for d in range(degree, -1, -1):
         for j in range(d + 1):
-            i = d - j
-            c[row] -= 0.5 * (a * (i + 1) * square[i + 1, j] + b * (j + 1) * square[i, j + 1])
+            table[d - j, j] = c[row]
+            middle[d - j, j] = c[row]
+            row += 1
+    _turn(table, middle, degree, 0.5 * angle, a, b, square)
+    _turn(middle, table, degree, angle, a, b, square)
+    row = 0
+    for d in range(degree, -1, -1):
+        for j in range(d + 1):
+            c[row] = table[d - j, j]
             row += 1
     c[size - 3] = 0.0
     c[size - 2] = 0.0
@@ -279,7 +298,7 @@ def tilt_matters(c: Array, degree: int, residual: float) -> bool:
     """Whether the gradient at the origin disturbs the fit by more than is tolerated.
 
     A tilt adds (a d/dx + b d/dy)(h^2) / 2 to the heights, of which the terms above the degree
-    cannot be undone after the fit, nor the effects of second order; both are bounded at half the
+    cannot be undone after the fit, nor the effects of third order; both are bounded at half the
     radius.
     """
     size = coefficient_count(degree)
@@ -296,14 +315,14 @@ def tilt_matters(c: Array, degree: int, residual: float) -> bool:
     for d1 in range(2, degree + 1):
         for d2 in range(max(2, degree + 2 - d1), degree + 1):
             beyond += (d1 + d2) * norms[d1] * norms[d2]
-    effect = slope * (beyond + slope * height)
+    effect = slope * (beyond + slope * slope * height)
     return effect > max(TILT_OF_RESIDUAL * residual, TILT_OF_HEIGHT * height)
 
 
 @inner
 def misfit(cloud: Array, weights: Array, n: int, degree: int, total: float, s: Scratch) -> float:
     """Write the residuals to row 8; return their weighted root mean square."""
-    residuals(cloud[5], cloud[6], cloud[7], cloud[9], n, degree, s.c, s.X, s.line, cloud[8])
+    subtract_polynomial(cloud[5], cloud[6], cloud[7], n, degree, s.c, s.X, s.line, cloud[8])
     squares = 0.0
     for i in range(n):
         squares += weights[i] * cloud[8, i] * cloud[8, i]
@@ -316,7 +335,7 @@ def reweigh(
 ) -> tuple[int, int, float]:
     """Go on from the l2 fit to the l1 fit by iterative reweighting.
 
-    Row 11 of the cloud receives the last weights, w / |r| up to a factor.
+    Row 10 of the cloud receives the last weights, w / |r| up to a factor.
 
     Returns
     -------
@@ -325,7 +344,7 @@ def reweigh(
     """
     before = np.inf
     for _ in range(L1_ROUNDS):
-        residuals(cloud[5], cloud[6], cloud[7], cloud[9], n, degree, s.c, s.X, s.line, cloud[8])
+        subtract_polynomial(cloud[5], cloud[6], cloud[7], n, degree, s.c, s.X, s.line, cloud[8])
         total = 0.0
         weight = 0.0
         for i in range(n):
@@ -336,11 +355,11 @@ def reweigh(
         before = total
         floor = max(L1_FLOOR * total / weight, 1e-16)
         for i in range(n):
-            cloud[11, i] = cloud[4, i] * floor / max(abs(cloud[8, i]), floor)
-        reached, pivot = regress(cloud, cloud[11], n, degree, s)
+            cloud[10, i] = cloud[4, i] * floor / max(abs(cloud[8, i]), floor)
+        reached, pivot = regress(cloud, cloud[10], n, degree, s)
         if reached < 0:
             return 0, reached, pivot
-        refine(cloud, cloud[11], n, degree, degree_start(degree, reached), s)
+        refine(cloud, cloud[10], n, degree, degree_start(degree, reached), s)
     return _NOT_CONVERGED, reached, pivot
 
 
@@ -384,9 +403,9 @@ def fit_point(cloud: Array, n: int, reference: Array, settings: Settings, s: Scr
 
     Parameters
     ----------
-    cloud : (12, >= n) float64
+    cloud : (11, >= n) float64
         Rows 0..3: coordinates and squared distance in units of the radius. The others are scratch:
-        4 weights, 5..7 local x, y, z, 8 residuals, 9 ones, 10 products, 11 weights of l1.
+        4 weights, 5..7 local x, y, z, 8 residuals, 9 products, 10 weights of l1.
     n : int
         Number of points.
     reference : (3,) float64
@@ -404,7 +423,6 @@ def fit_point(cloud: Array, n: int, reference: Array, settings: Settings, s: Scr
     gaussian(n, cloud[3], cloud[4])
     inside = 0
     for i in range(n):
-        cloud[9, i] = 1.0
         if cloud[4, i] > 0.0:
             inside += 1
     degree = affordable_degree(inside, settings.degree)
@@ -455,7 +473,7 @@ def fit_point(cloud: Array, n: int, reference: Array, settings: Settings, s: Scr
         shift(s.c, degree, cx, cy, s.table)
 
     if settings.frame == FRAME_TANGENT:
-        untilt(s.c, degree, s.frame, s.table, s.square)
+        untilt(s.c, degree, s.frame, s.table, s.middle, s.square)
         for i in range(first):
             s.c[i] = 0.0
     if refined:

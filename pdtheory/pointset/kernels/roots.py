@@ -53,14 +53,17 @@ def value(re: Array, im: Array, order: int, theta: float) -> float:
 
 
 @inner
-def _polish(re: Array, im: Array, order: int, low: float, high: float, h_low: float) -> float:
+def _polish(
+    re: Array, im: Array, order: int, low: float, high: float, h_low: float, h_high: float
+) -> float:
     """Return the zero of h in [low, high], where h changes sign, by safeguarded Newton steps."""
-    theta = 0.5 * (low + high)
+    theta = low + (high - low) * abs(h_low) / (abs(h_low) + abs(h_high))
+    rising = h_high > h_low
     for _ in range(100):
         h, slope = evaluate(re, im, order, theta)
         if h == 0.0:
             break
-        if (h < 0.0) == (h_low < 0.0):
+        if (h < 0.0) == rising:
             low = theta
         else:
             high = theta
@@ -82,6 +85,7 @@ def critical_angles(
     order: int,
     cosines: Array,
     sines: Array,
+    samples: Array,
     stack: Array,
     angle: Array,
     kind: Any,
@@ -97,6 +101,8 @@ def critical_angles(
         The order k.
     cosines, sines : (>= order + 1, SAMPLES + 1) float64
         cos(n theta_j) and sin(n theta_j) at theta_j = j pi / SAMPLES.
+    samples : (2, SAMPLES + 1) float64
+        Scratch for h and h'.
     stack : (DEPTH + 2, 6) float64
         Scratch for the halvings.
     angle : (>= order,) float64
@@ -122,33 +128,32 @@ def critical_angles(
         return 0
     width = np.pi / SAMPLES
     finest = width * 2.0 ** (-DEPTH)
-    h0 = d0 = first_h = first_d = 0.0
     for sample in range(SAMPLES + 1):
-        h1 = 0.0
-        d1 = 0.0
-        for j in range(order // 2 + 1):
-            n = 2 * j + parity
-            c = cosines[n, sample]
-            s = sines[n, sample]
-            h1 -= 2.0 * n * (re[j] * s + im[j] * c)
-            d1 -= 2.0 * n * n * (re[j] * c - im[j] * s)
-        if sample == 0:
-            first_h = h1
-            first_d = d1
-            h0 = h1
-            d0 = d1
+        samples[0, sample] = 0.0
+        samples[1, sample] = 0.0
+    for j in range(order // 2 + 1):
+        n = 2 * j + parity
+        p = -2.0 * n * re[j]
+        q = -2.0 * n * im[j]
+        for sample in range(SAMPLES):
+            samples[0, sample] += p * sines[n, sample] + q * cosines[n, sample]
+            samples[1, sample] += n * (p * cosines[n, sample] - q * sines[n, sample])
+    # h(theta + pi) = (-1)^k h(theta), to the bit, so that a zero at 0 is found once.
+    samples[0, SAMPLES] = -samples[0, 0] if parity else samples[0, 0]
+    samples[1, SAMPLES] = -samples[1, 0] if parity else samples[1, 0]
+    for sample in range(1, SAMPLES + 1):
+        ha = samples[0, sample - 1]
+        hb = samples[0, sample]
+        change = (ha < 0.0) != (hb < 0.0)
+        if not change and sample < SAMPLES and min(abs(ha), abs(hb)) > third * width * width / 8.0:
             continue
-        if sample == SAMPLES:
-            # h(theta + pi) = (-1)^k h(theta), to the bit, so that a zero at 0 is found once.
-            h1 = -first_h if parity else first_h
-            d1 = -first_d if parity else first_d
         top = 0
         stack[0, 0] = (sample - 1) * width
         stack[0, 1] = sample * width
-        stack[0, 2] = h0
-        stack[0, 3] = h1
-        stack[0, 4] = d0
-        stack[0, 5] = d1
+        stack[0, 2] = ha
+        stack[0, 3] = hb
+        stack[0, 4] = samples[1, sample - 1]
+        stack[0, 5] = samples[1, sample]
         while top >= 0:
             low = stack[top, 0]
             high = stack[top, 1]
@@ -194,12 +199,10 @@ def critical_angles(
             if found == order:
                 break
             if change:
-                angle[found] = _polish(re, im, order, low, high, -1.0 if negative_a else 1.0)
+                angle[found] = _polish(re, im, order, low, high, ha, hb)
                 kind[found] = 1 if negative_b else -1
             else:
                 angle[found] = 0.5 * (low + high)
                 kind[found] = 0
             found += 1
-        h0 = h1
-        d0 = d1
     return found

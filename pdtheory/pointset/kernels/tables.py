@@ -10,7 +10,8 @@ import numpy as np
 
 from pdtheory.conventions import frequencies
 from pdtheory.pointset.kernels.jit import inner
-from pdtheory.pointset.kernels.regression import BLOCK, coefficient_count, table_rows
+from pdtheory.pointset.kernels.moments import BLOCK, table_rows
+from pdtheory.pointset.kernels.regression import coefficient_count
 from pdtheory.pointset.kernels.roots import DEPTH, SAMPLES
 
 
@@ -39,6 +40,7 @@ class Scratch(NamedTuple):
 
     X: Any
     V: Any
+    offsets: Any
     moments: Any
     heights: Any
     G: Any
@@ -49,6 +51,7 @@ class Scratch(NamedTuple):
     pivots: Any
     spare: Any
     table: Any
+    middle: Any
     square: Any
     frame: Any
     A: Any
@@ -56,6 +59,7 @@ class Scratch(NamedTuple):
     line: Any
     re: Any
     im: Any
+    samples: Any
     stack: Any
     angle: Any
     kind: Any
@@ -94,17 +98,19 @@ def make_scratch(degree: int) -> Scratch:
     n = coefficient_count(degree)
     rows = table_rows(degree)
     return Scratch(
-        np.empty((rows, BLOCK)),
-        np.empty((rows, BLOCK)),
+        np.empty((rows, BLOCK + 8)),
+        np.empty((rows, BLOCK + 8)),
+        np.empty(n, dtype=np.int64),
         np.empty((2 * degree + 10, 2 * degree + 10)),
         np.empty((2 * degree + 10, 2 * degree + 10)),
         np.empty((n, n)),
         np.empty((n, n)),
         np.empty(n),
+        np.empty(n + 2 * degree + 2),
         np.empty(n),
         np.empty(n),
         np.empty(n),
-        np.empty(n),
+        np.empty((degree + 1, degree + 1)),
         np.empty((degree + 1, degree + 1)),
         np.empty((degree + 2, degree + 2)),
         np.empty((3, 3)),
@@ -113,9 +119,10 @@ def make_scratch(degree: int) -> Scratch:
         np.empty(BLOCK),
         np.empty(degree // 2 + 1),
         np.empty(degree // 2 + 1),
+        np.empty((2, SAMPLES + 1)),
         np.empty((DEPTH + 3, 6)),
         np.empty(degree + 1),
         np.empty(degree + 1, dtype=np.int8),
-        np.empty((degree + 1, n)),
+        np.empty((max(degree + 1, 4), n)),
         np.empty((degree + 1, degree + 1)),
     )

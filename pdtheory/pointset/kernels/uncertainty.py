@@ -36,12 +36,33 @@ def spread(L: Array, S: Array, s: int, n: int, diagonal: Array, pivots: Array) -
             for j in range(s, i + 1):
                 S[i, j] = 0.0
             continue
-        for j in range(i, s - 1, -1):
-            t = S[i, j] / L[j, j]
-            S[i, j] = t
-            total += t * t
-            for l in range(s, j):  # noqa: E741
-                S[i, l] -= t * L[j, l]
+        j = i
+        while j - 3 >= s:
+            t0 = S[i, j] / L[j, j]
+            t1 = (S[i, j - 1] - t0 * L[j, j - 1]) / L[j - 1, j - 1]
+            t2 = (S[i, j - 2] - t0 * L[j, j - 2] - t1 * L[j - 1, j - 2]) / L[j - 2, j - 2]
+            t3 = S[i, j - 3] - t0 * L[j, j - 3] - t1 * L[j - 1, j - 3] - t2 * L[j - 2, j - 3]
+            t3 /= L[j - 3, j - 3]
+            for k in range(j - 3 - s):
+                S[i, s + k] -= (
+                    t0 * L[j, s + k]
+                    + t1 * L[j - 1, s + k]
+                    + t2 * L[j - 2, s + k]
+                    + t3 * L[j - 3, s + k]
+                )
+            S[i, j] = t0
+            S[i, j - 1] = t1
+            S[i, j - 2] = t2
+            S[i, j - 3] = t3
+            total += t0 * t0 + t1 * t1 + t2 * t2 + t3 * t3
+            j -= 4
+        while j >= s:
+            t0 = S[i, j] / L[j, j]
+            for k in range(s, j):
+                S[i, k] -= t0 * L[j, k]
+            S[i, j] = t0
+            total += t0 * t0
+            j -= 1
     return total
 
 
@@ -74,16 +95,23 @@ def order_covariance(
         Centre about which the fit was made.
     binomial : (top + 1, top + 1) float64
         Binomial coefficients.
-    work : (n,) float64
+    work : (n + 2 top + 2,) float64
         Scratch.
     spreads : (>= order + 1, n) float64
         Scratch.
     covariance : (>= order + 1, >= order + 1) float64
         Receives the covariance of c_{k-b,b}, b = 0..k.
     """
+    powers_x = work[n:]
+    powers_y = work[n + top + 1 :]
+    powers_x[0] = powers_y[0] = 1.0
+    for i in range(top):
+        powers_x[i + 1] = -cx * powers_x[i]
+        powers_y[i + 1] = -cy * powers_y[i]
+    end = degree_start(top, order) + order + 1
     for b in range(order + 1):
         a = order - b
-        for i in range(s, n):
+        for i in range(s, end):
             work[i] = 0.0
         for d in range(order, top + 1):
             row = degree_start(top, d)
@@ -91,44 +119,49 @@ def order_covariance(
                 continue
             for j in range(b, d - a + 1):
                 work[row + j] = (
-                    binomial[d - j, a] * binomial[j, b] * (-cx) ** (d - j - a) * (-cy) ** (j - b)
+                    binomial[d - j, a] * binomial[j, b] * powers_x[d - j - a] * powers_y[j - b]
                 )
-        solve_transposed(L, s, n, work)
+        solve_transposed(L, s, end, work)
         for i in range(s, n):
             t = 0.0
-            for j in range(s, i + 1):
-                t += X[i, j] * work[j]
+            for j in range(min(i + 1, end) - s):
+                t += X[i, s + j] * work[s + j]
             spreads[b, i] = t
     for b1 in range(order + 1):
         for b2 in range(b1 + 1):
             t = 0.0
-            for i in range(s, n):
-                t += spreads[b1, i] * spreads[b2, i]
+            for i in range(n - s):
+                t += spreads[b1, s + i] * spreads[b2, s + i]
             covariance[b1, b2] = t
             covariance[b2, b1] = t
 
 
 @inner
-def direction_variances(covariance: Array, order: int, theta: float) -> tuple[float, float]:
-    """Return the variances of g'(theta) and g(theta) for unit noise."""
+def direction_variances(
+    covariance: Array, order: int, theta: float, work: Array
+) -> tuple[float, float]:
+    """Return the variances of g'(theta) and g(theta) for unit noise.
+
+    `work` is scratch with four rows of at least ``order + 2`` entries.
+    """
     c = np.cos(theta)
     s = np.sin(theta)
-    slope = 0.0
-    height = 0.0
+    work[0, 0] = work[1, 0] = 1.0
+    for i in range(order + 1):
+        work[0, i + 1] = work[0, i] * c
+        work[1, i + 1] = work[1, i] * s
+    for b in range(order + 1):
+        work[2, b] = work[0, order - b] * work[1, b]
+        slope = 0.0
+        if b < order:
+            slope -= (order - b) * work[0, order - b - 1] * work[1, b + 1]
+        if b > 0:
+            slope += b * work[0, order - b + 1] * work[1, b - 1]
+        work[3, b] = slope
+    of_slope = 0.0
+    of_value = 0.0
     for b1 in range(order + 1):
-        m1 = c ** (order - b1) * s**b1
-        d1 = 0.0
-        if b1 < order:
-            d1 -= (order - b1) * c ** (order - b1 - 1) * s ** (b1 + 1)
-        if b1 > 0:
-            d1 += b1 * c ** (order - b1 + 1) * s ** (b1 - 1)
         for b2 in range(order + 1):
-            m2 = c ** (order - b2) * s**b2
-            d2 = 0.0
-            if b2 < order:
-                d2 -= (order - b2) * c ** (order - b2 - 1) * s ** (b2 + 1)
-            if b2 > 0:
-                d2 += b2 * c ** (order - b2 + 1) * s ** (b2 - 1)
-            slope += d1 * covariance[b1, b2] * d2
-            height += m1 * covariance[b1, b2] * m2
-    return max(slope, 0.0), max(height, 0.0)
+            of_slope += work[3, b1] * covariance[b1, b2] * work[3, b2]
+            of_value += work[2, b1] * covariance[b1, b2] * work[2, b2]
+    return max(of_slope, 0.0), max(of_value, 0.0)
