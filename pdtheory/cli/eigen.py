@@ -61,6 +61,8 @@ def print_order(pairs: EigenPairs, digits: int = 12) -> None:
     from pdtheory.exact.report import short
 
     console = Console(highlight=False)
+    # Digits that were asked for are never cut: a narrow terminal wraps the lines itself.
+    console.width = max(console.width, 2 * digits + 56)
     console.print(
         f"[bold]Order {pairs.order}[/]  T v^{pairs.order} = {short(pairs.form.expression)}"
     )
@@ -93,8 +95,8 @@ def eigen_table(order: int, pairs: EigenPairs, digits: int = 12) -> Table:
     from rich.text import Text
 
     table = Table(title=f"Real E-eigenpairs of order {order}")
-    table.add_column("theta [deg]", justify="right")
-    table.add_column("lambda", justify="right")
+    table.add_column("theta (deg)", justify="right", no_wrap=True, min_width=digits)
+    table.add_column("lambda", justify="right", no_wrap=True, min_width=digits)
     table.add_column("kind")
     table.add_column("mult.", justify="right")
     table.add_column("exact", overflow="fold")
