@@ -201,7 +201,9 @@ def _compare_with_exact(console: Console, quiet: bool) -> None:
     for heading in ("order", "directions", "found", "median error", "largest", "lambda, median"):
         table.add_column(heading, justify="right")
     for order in ORDERS:
-        exact, found, errors, relative = 0, 0, [], []
+        exact, found = 0, 0
+        errors: list[float] = []
+        relative: list[float] = []
         rows = field[order]
         for i, (jet, frame) in enumerate(zip(jets, frames, strict=True)):
             part = rows.at(i)
@@ -217,9 +219,9 @@ def _compare_with_exact(console: Console, quiet: bool) -> None:
                 nearest = int(np.argmax(cosines))
                 # The chord keeps the digits that the cosine of a tiny angle loses.
                 chord = np.linalg.norm(rows.vector[part][same][nearest] - vector)
-                errors.append(np.degrees(2.0 * np.arcsin(min(1.0, chord / 2.0))))
+                errors.append(float(np.degrees(2.0 * np.arcsin(min(1.0, chord / 2.0)))))
                 value = float(pair.eigenvalue_float(17))
-                relative.append(abs(rows.eigenvalue[part][same][nearest] - value) / scale)
+                relative.append(abs(float(rows.eigenvalue[part][same][nearest]) - value) / scale)
         table.add_row(
             str(order),
             f"{exact}",
