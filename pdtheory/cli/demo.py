@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from itertools import product
+from math import asin, degrees
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -218,8 +219,8 @@ def _compare_with_exact(console: Console, quiet: bool) -> None:
                 cosines = rows.vector[part][same] @ vector
                 nearest = int(np.argmax(cosines))
                 # The chord keeps the digits that the cosine of a tiny angle loses.
-                chord = np.linalg.norm(rows.vector[part][same][nearest] - vector)
-                errors.append(float(np.degrees(2.0 * np.arcsin(min(1.0, chord / 2.0)))))
+                chord = float(np.linalg.norm(rows.vector[part][same][nearest] - vector))
+                errors.append(degrees(2.0 * asin(min(1.0, chord / 2.0))))
                 value = float(pair.eigenvalue_float(17))
                 relative.append(abs(float(rows.eigenvalue[part][same][nearest]) - value) / scale)
         table.add_row(
