@@ -28,6 +28,9 @@ Progress = Callable[[float, str], None]
 
 SUFFIXES: Final = (".png", ".blend")
 
+#: Standard deviation, in radians, up to which a direction is worth drawing: 20 degrees.
+CERTAIN: Final = 0.35
+
 _KINDS: Final = {
     "max": frozenset({Kind.MAXIMUM}),
     "min": frozenset({Kind.MINIMUM}),
@@ -90,7 +93,7 @@ def draw_field(
     orders: Iterable[int] | None = None,
     kind: str = "max",
     strokes: int = 800,
-    largest_uncertainty: float = 0.35,
+    largest_uncertainty: float = CERTAIN,
     up: str | None = None,
     azimuth: float | None = None,
     elevation: float | None = None,

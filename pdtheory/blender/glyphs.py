@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from pdtheory.blender import compat
+from pdtheory.blender.draw import CERTAIN
 from pdtheory.blender.needles import ORDERS, needle_group, order_material
 from pdtheory.blender.thinning import Spots, choose_spots
 from pdtheory.errors import InputError
@@ -74,9 +75,12 @@ def glyph_data(field: DirectionField, orders: Iterable[int] | None = None) -> Gl
             )
     rows = [field[order] for order in wanted]
     usable = np.zeros(len(field), dtype=bool)
+    certain = np.zeros(len(field), dtype=np.int64)
     for row in rows:
         usable |= np.diff(row.offsets) > 0
-    spots = choose_spots(field.points, usable)
+        sure = row.point_index[row.angle_std <= CERTAIN]
+        certain[np.unique(sure)] += 1
+    spots = choose_spots(field.points, usable, preference=certain)
     columns: dict[str, list[npt.NDArray[np.generic]]] = {}
 
     def put(name: str, values: npt.NDArray[np.generic]) -> None:

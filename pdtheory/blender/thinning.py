@@ -53,7 +53,11 @@ class Spots:
 
 
 def choose_spots(
-    points: FloatArray, usable: npt.NDArray[np.bool_] | None = None, *, seed: int = 0
+    points: FloatArray,
+    usable: npt.NDArray[np.bool_] | None = None,
+    *,
+    preference: npt.NDArray[np.generic] | None = None,
+    seed: int = 0,
 ) -> Spots:
     """Rank points by spacing and deal them turns.
 
@@ -63,6 +67,9 @@ def choose_spots(
         Positions.
     usable : (P,) bool, optional
         Points that may carry strokes; the others get spacing 0.
+    preference : (P,) array, optional
+        Of points close together, compared to the distance of spots, the one with the largest value
+        is taken.
     seed
         Seed of the random choices; the same seed gives the same spots.
 
@@ -83,6 +90,8 @@ def choose_spots(
     random = np.random.default_rng(seed)
     index = random.permutation(index)
     pool = index[:_POOL]
+    if preference is not None:
+        pool = pool[np.argsort(-preference[pool].astype(np.float64), kind="stable")]
     chosen, reach, turns = _progressive_sample(points[pool], random)
     spacing[pool[chosen]] = reach
     turn[pool[chosen]] = turns

@@ -65,3 +65,11 @@ def test_few_and_equal_points(points):
     spots = choose_spots(points)
     assert (spots.spacing > 0).all()
     assert len(spots.turn) == len(points)
+
+
+def test_preferred_points_are_taken_where_there_is_a_choice(sphere):
+    preferred = np.random.default_rng(1).random(len(sphere)) < 0.3
+    spots = choose_spots(sphere, preference=preferred)
+    keep = spots.spacing >= spots.spacing_for(300)
+    assert preferred[keep].mean() > 0.9
+    assert cKDTree(sphere[keep]).query(sphere)[0].max() < 2.0 * spots.spacing_for(300)
