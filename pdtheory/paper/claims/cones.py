@@ -44,7 +44,7 @@ def cone_fit(
     yield identity(
         r"$\int_0^{2\pi} e^{i n \theta} = 0$ for $n \neq 0$: with a weight of the distance the "
         r"normal equations of different frequencies do not mix.",
-        sp.integrate(sp.exp(sp.I * n * t), (t, 0, 2 * sp.pi)),
+        sp.Integral(sp.exp(sp.I * n * t), (t, 0, 2 * sp.pi)),
     )
     R, c = sp.symbols("R c", positive=True)
     row, column = sp.symbols("k l", integer=True, positive=True)
@@ -52,17 +52,17 @@ def cone_fit(
         r"In $\rho = r / R$ the equations are $\sum_l \mu_{k+l+1} c_l = \mu_{k+2}$ for $\phi_l = "
         r"c_l h_n R^{1-l}$: a matrix entry $R^{k+l+2}$ times $R^{1-l}$ is $R^{k+3}$, as on the "
         r"right side (symbolic $k$, $l$).",
-        sp.powsimp(R ** (row + column + 2) * c * R ** exponent(column)),
-        sp.powsimp(R ** (row + 3) * c),
+        R ** (row + column + 2) * c * R ** exponent(column),
+        R ** (row + 3) * c,
     )
     r = sp.Symbol("rho", positive=True)
     weight = sp.exp(-sp.Rational(9, 2) * r**2)
     power = sp.Symbol("m", integer=True, positive=True)
-    step = sp.diff(-weight * r ** (power - 1) / 9, r)
     yield identity(
         r"Gaussian moments: $\mu_m = \frac19 ((m - 1) \mu_{m-2} - q)$, by parts (symbolic $m$).",
-        sp.expand(step / weight),
-        sp.expand(r**power - (power - 1) * r ** (power - 2) / 9),
+        sp.Derivative(-weight * r ** (power - 1) / 9, r),
+        weight * (r**power - (power - 1) * r ** (power - 2) / 9),
+        over=weight,
     )
     start = [sp.integrate(weight * r**j, (r, 0, 1)) for j in (0, 1)]
     exact = {Q: sp.exp(-sp.Rational(9, 2)), E: sp.sqrt(2 * sp.pi) * sp.erf(3 / sp.sqrt(2))}
@@ -158,7 +158,7 @@ def cone_creases(
     h = A * sp.cos(t) + B * sp.sin(t)
     yield identity(
         r"A plane is $h = A \cos\theta + B \sin\theta$, so $h'' + h = 0$ between creases.",
-        sp.diff(h, t, 2) + h,
+        sp.Derivative(h, (t, 2)) + h,
     )
     wave = sp.exp(-sp.I * n * t)
     boundary = (sp.diff(h, t) + sp.I * n * h) * wave
@@ -166,8 +166,9 @@ def cone_creases(
         r"$\frac{\mathrm d}{\mathrm d\theta} [(h' + i n h) e^{-i n \theta}] = (n^2 - 1)\, h\, "
         r"e^{-i n \theta}$ (symbolic $n$). Summed over the sectors the terms with $h$ cancel, as "
         r"$h$ is continuous, and those with $h'$ leave $-\sum_j J_j e^{-i n a_j}$.",
-        sp.expand(sp.diff(boundary, t) / wave),
-        sp.expand(denominator(n) * h),
+        sp.Derivative(boundary, t),
+        denominator(n) * h * wave,
+        over=wave,
     )
     yield identity(
         r"For $n = \pm 1$ the left side is 0: $\sum_j J_j e^{\mp i a_j} = 0$.",
@@ -175,7 +176,7 @@ def cone_creases(
         denominator(sp.Integer(1)) * h,
     )
     m = 2
-    integral = sp.integrate(-sp.sin(t) * sp.cos(m * t), (t, 0, sp.pi)) / sp.pi
+    integral = sp.Integral(-sp.sin(t) * sp.cos(m * t), (t, 0, sp.pi)) / sp.pi
     jumps = [(0, -2), (sp.pi, -2)]
     formula = -sum(j * sp.exp(-sp.I * m * a) for a, j in jumps) / (2 * sp.pi * denominator(m))
     yield identity(

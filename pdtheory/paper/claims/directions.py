@@ -165,14 +165,16 @@ def mixed_partials(orders: Orders, f: Any = _PEANO) -> Iterator[Step]:
         r"$\Delta = f(h, h) - f(h, 0) - f(0, h) + f(0, 0)$ is symmetric in the variables, and by "
         r"the mean value theorem it is $h (f_x(\xi, h) - f_x(\xi, 0)) = h^2 f_{xy} + o(h^2)$ and "
         r"likewise $h^2 f_{yx} + o(h^2)$; apply it to derivatives of order $k - 2$.",
-        sp.expand(first - second),
+        first - second,
         h_xy - h_yx,
     )
     m = sp.Symbol("m", integer=True, positive=True)
     monomial = x**m * y**n
     yield identity(
         r"On monomials with symbolic exponents the derivatives commute.",
-        sp.expand((sp.diff(monomial, x, y) - sp.diff(monomial, y, x)) / monomial),
+        sp.Derivative(sp.Derivative(monomial, x), y),
+        sp.Derivative(sp.Derivative(monomial, y), x),
+        over=monomial,
     )
 
 
@@ -196,8 +198,9 @@ def lemma_gradient(
             rf"y^{{k-i}}$ and $T_{name} v^{{k-1}}$ has the coefficient "
             rf"$\binom{{k-1}}{{{lower}}}$; its derivative by ${name}$, over the monomial, equals "
             rf"$k\, T_{name} v^{{k-1}}$ for symbolic $i$ and $k$.",
-            sp.expand(sp.diff(form, variable) / form),
-            sp.combsimp(sp.expand(factor(k) * contracted / form)),
+            sp.Derivative(form, variable),
+            factor(k) * contracted,
+            over=form,
         )
 
 
@@ -215,25 +218,23 @@ def theorem_equivalence(
     factor: Callable[[Any], Any] = lambda order: 1 / order,
     normal: tuple[Any, Any] = (-y, x),
 ) -> Iterator[Step]:
-    t_v = tensor_on(_MONOMIAL, k)
-    F = angular(_MONOMIAL)
-    for name, component, coordinate, side in zip(
-        ("first", "second"), t_v, (x, y), normal, strict=True
-    ):
+    F = x * sp.Derivative(_MONOMIAL, y) - y * sp.Derivative(_MONOMIAL, x)
+    for name, coordinate, side in zip(("first", "second"), (x, y), normal, strict=True):
         yield identity(
             rf"The {name} component, on $x^i y^{{k-i}}$ with symbolic $i$ and $k$, divided by the "
             rf"monomial.",
-            sp.expand(((x**2 + y**2) * component - _MONOMIAL * coordinate) / _MONOMIAL),
-            sp.expand(factor(k) * F * side / _MONOMIAL),
+            (x**2 + y**2) * sp.Derivative(_MONOMIAL, coordinate) / k - _MONOMIAL * coordinate,
+            factor(k) * F * side,
+            over=_MONOMIAL,
         )
     radius = sp.Symbol("r", positive=True)
     angle = sp.Symbol("theta", positive=True)
     polar = {x: radius * sp.cos(angle), y: radius * sp.sin(angle)}
-    log_derivative = sp.diff(_MONOMIAL.subs(polar), angle) / _MONOMIAL.subs(polar)
     yield identity(
         r"$\partial f / \partial \theta = F$, by the chain rule on the same monomial.",
-        sp.simplify(sp.expand(log_derivative)),
-        sp.simplify(sp.expand(F / _MONOMIAL).subs(polar)),
+        sp.Derivative(_MONOMIAL.subs(polar), angle),
+        F.doit().subs(polar),
+        over=_MONOMIAL.subs(polar),
     )
     yield identity(
         r"The vector $(-y, x)$ has $|(-y, x)|^2 = |v|^2 = 1$, so it is not 0 and the left side "
@@ -269,12 +270,12 @@ def extrema_or_critical(orders: Orders, f: Any = y**3, order: int = 3) -> Iterat
     )
     power = sp.Symbol("k", integer=True, positive=True)
     family = x ** (power - 3) * y**3
-    F = angular(family)
     yield identity(
         r"For every $k \geq 3$ the form $x^{k-3} y^3$ has $F = x^{k-4} y^2 (3 x^2 - (k - 3) "
         r"y^2)$, with a double root at $y = 0$ where $F$ does not change sign.",
-        sp.expand(F / family),
-        sp.expand((3 * x**2 - (power - 3) * y**2) / (x * y)),
+        x * sp.Derivative(family, y) - y * sp.Derivative(family, x),
+        x ** (power - 4) * y**2 * (3 * x**2 - (power - 3) * y**2),
+        over=family,
     )
     counts = {}
     for o in (o for o in orders if o >= 3):
@@ -321,11 +322,11 @@ def wavejets_symmetry(
     cosine, sine = _on_circle(_E)
     minus = tuple(c.subs(_E, -_E) for c in (cosine, sine))
     a, b = sp.symbols("a b", integer=True, nonnegative=True)
-    ratio = sp.simplify(minus[0] / cosine) ** a * sp.simplify(minus[1] / sine) ** b
+    ratio = sp.factor(minus[0] / cosine) ** a * sp.factor(minus[1] / sine) ** b
     yield identity(
         r"Replacing $e = e^{i t}$ by $-e$ multiplies $\cos^a t\, \sin^b t$ by $(-1)^{a + b} = "
         r"(-1)^k$ and $e^n$ by $(-1)^n$: only $n$ with $(-1)^n = (-1)^k$ occur.",
-        sp.powsimp(ratio),
+        ratio,
         parity(a + b),
     )
     mirrored = tuple(sp.simplify(c.subs(_E, 1 / _E).subs(sp.I, -sp.I)) for c in (cosine, sine))
@@ -366,14 +367,14 @@ def corollary_wavejets(orders: Orders, factor: Any = -2, sign: int = 1) -> Itera
     yield identity(
         r"Term by term, $\mathrm{d}/\mathrm{d}\theta$ of $\phi_n e^{i n \theta} + "
         r"\overline{\phi_n} e^{-i n \theta}$ is the pair $\pm n$ of (4.16), symbolic $n$.",
-        sp.diff(pair, t),
+        sp.Derivative(pair, t),
         termwise,
     )
     yield identity(
         r"It is $-2 n\, (\mathrm{Im}\, \phi_n \cos n\theta + \mathrm{Re}\, \phi_n \sin n\theta)$, "
         r"symbolic $n$; the term $n = 0$ gives 0. With Theorem 4.3 the zeros are the "
         r"E-eigenvectors.",
-        sp.diff(pair, t),
+        sp.Derivative(pair, t),
         factor * n * (b * sp.cos(n * t) + sign * a * sp.sin(n * t)),
     )
 
@@ -387,12 +388,13 @@ def corollary_wavejets(orders: Orders, factor: Any = -2, sign: int = 1) -> Itera
 def eigenvalue_link(
     orders: Orders, factor: Callable[[Any], Any] = lambda order: 1 / sp.factorial(order)
 ) -> Iterator[Step]:
-    t_v = tensor_on(_MONOMIAL, k)
+    gradient = (sp.Derivative(_MONOMIAL, x), sp.Derivative(_MONOMIAL, y))
     yield identity(
         r"$\lambda = \lambda\, v \cdot v = v \cdot T v^{k-1} = T v^k$, on $x^i y^{k-i}$ with "
         r"symbolic exponents.",
-        sp.expand((x * t_v[0] + y * t_v[1]) / _MONOMIAL),
-        1,
+        (x * gradient[0] + y * gradient[1]) / k,
+        _MONOMIAL,
+        over=_MONOMIAL,
     )
     a, b = sp.symbols("a b", integer=True, nonnegative=True)
     derivative, value = sp.factorial(a) * sp.factorial(b), sp.Integer(1)

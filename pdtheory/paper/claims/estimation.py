@@ -53,5 +53,5 @@ def z_gaussian(orders: Orders, weight: Callable[[Any, Any], Any] = _gaussian) ->
     yield identity(
         r"Corrected: $w(\rho) - w(1)$ is continuous, its limit at the boundary is 0, the value "
         r"beyond.",
-        sp.limit(weight(r, R) - weight(R, R), r, R, "-"),
+        sp.Limit(weight(r, R) - weight(R, R), r, R, "-"),
     )

@@ -333,7 +333,7 @@ def extraction_exact(
     )
     yield identity(
         r"So $\delta / \varepsilon^{1/2} \to 1 / \sqrt{12}$: the exponent is $1/2$.",
-        sp.limit(offset / eps**half, eps, 0, "+"),
+        sp.Limit(offset / eps**half, eps, 0, "+"),
         1 / sp.sqrt(12),
     )
     cusp = sp.expand_trig(slope(-9, 12 * sp.tan(d) * sp.sin(d) ** 2, d))
@@ -345,7 +345,7 @@ def extraction_exact(
     )
     yield identity(
         r"So $\delta^3 / \varepsilon \to 1/12$: the exponent is $1/3$.",
-        sp.limit(d ** (1 / third) / (12 * sp.sin(d) ** 2 * sp.tan(d)), d, 0, "+"),
+        sp.Limit(d ** (1 / third) / (12 * sp.sin(d) ** 2 * sp.tan(d)), d, 0, "+"),
         sp.Rational(1, 12),
     )
     F = slope(a, 0, t)

@@ -53,17 +53,31 @@ def fact(text: str, holds: Any, *, shows: Shows = Shows.PROOF, **data: Any) -> S
     return Step(shows, text, bool(holds), {name: str(value) for name, value in data.items()})
 
 
-def identity(text: str, left: Any, right: Any = 0, *, shows: Shows = Shows.PROOF) -> Step:
-    """Make a step that holds if `left` equals `right` identically."""
-    rest = vanish(left - right)
-    return fact(text, rest == 0, shows=shows, left=left, right=right, difference=rest)
+def identity(
+    text: str, left: Any, right: Any = 0, *, over: Any = 1, shows: Shows = Shows.PROOF
+) -> Step:
+    """Make a step that holds if `left` equals `right` identically.
+
+    Parameters
+    ----------
+    text
+        What the identity says.
+    left, right
+        The two sides; derivatives, integrals and limits may be unevaluated, and are shown so.
+    over
+        A factor that is not 0, by which the difference is divided to simplify it.
+    shows
+        Part of the identity in the certificate.
+    """
+    rest = vanish((sp.sympify(left) - sp.sympify(right)).doit() / over)
+    return fact(text, rest == 0, shows=shows, identity=f"{left} = {right}", difference=rest)
 
 
 def differs(text: str, left: Any, right: Any, *, shows: Shows) -> Step:
     """Make a step that holds if `left` and `right` are proved to differ."""
     rest = vanish(left - right)
     holds = rest.is_zero is False or (rest != 0 and bool(rest.free_symbols))
-    return fact(text, holds, shows=shows, left=left, right=right, difference=rest)
+    return fact(text, holds, shows=shows, inequality=f"{left} != {right}", difference=rest)
 
 
 # --- calculus with symbols ---------------------------------------------------------------------

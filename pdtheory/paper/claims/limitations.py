@@ -75,7 +75,7 @@ def continuity(
         r"Every $k \geq 3$ has two frequencies $0 < p < q \leq k$ of its parity. $g = \cos "
         r"q\theta + c \cos p\theta$ has $g'(0) = 0$ and $g''(0) = -q^2 - c p^2$, which changes "
         r"sign at $c = -q^2 / p^2$: a direction that was a maximum is a minimum.",
-        sp.diff(g, t, 2).subs({t: 0, c: -(q**2) / p**2}),
+        sp.diff(g, t, 2).subs(t, 0).subs(c, -(q**2) / p**2),
     )
     value = sp.Symbol("a", real=True)
     F = sp.sin(t) * (9 + value - 12 * sp.sin(t) ** 2)
@@ -105,7 +105,7 @@ def isotropic_vanish(orders: Orders, profile: Any = None) -> Iterator[Step]:
     yield identity(
         r"Every term of a surface of revolution about the normal is $c\,(x^2 + y^2)^m$, and its "
         r"$F$ is 0 (symbolic $m$): all unit vectors satisfy Theorem 4.3.",
-        sp.simplify(angular(f) / f),
+        x * sp.Derivative(f, y) - y * sp.Derivative(f, x),
         shows=Shows.COUNTEREXAMPLE,
     )
     t_v = tensor_on((x**2 + y**2) ** m, 2 * m)

@@ -85,12 +85,11 @@ def power_sums(
     d = sp.Symbol("d", integer=True, positive=True)
     c = 1 / sp.sqrt(2)
     f = x**d + y**d
-    F = angular(f)
     yield identity(
         r"$F = d\, x y\, (y^{d-2} - x^{d-2})$: on the axes $F = 0$, $f = 1$; on the diagonals $F "
         r"= 0$ (symbolic $d$).",
-        sp.expand(F / (x * y)),
-        sp.expand(d * (y ** (d - 2) - x ** (d - 2))),
+        x * sp.Derivative(f, y) - y * sp.Derivative(f, x),
+        d * x * y * (y ** (d - 2) - x ** (d - 2)),
     )
     yield identity(
         r"$f(1, 1) / \sqrt 2^{\,d} = 2^{1 - d/2}$.",

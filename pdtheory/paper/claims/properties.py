@@ -43,7 +43,7 @@ def _turned(sign: Callable[[Any], Any]) -> Step:
     return identity(
         r"$v \to -v$ multiplies $x^a y^b$ by $(-1)^{a + b} = (-1)^k$ (equivalently $e^{i n "
         r"\theta}$ by $(-1)^n$, $n = k \bmod 2$); periodicity alone would not give it.",
-        sp.powsimp((-1) ** a * (-1) ** b),
+        (-1) ** a * (-1) ** b,
         sign(a + b),
     )
 
@@ -86,6 +86,10 @@ def parity_odd(
     )
 
 
+def _unevaluated_angular(f: Any) -> Any:
+    return x * sp.Derivative(f, y) - y * sp.Derivative(f, x)
+
+
 def _constant_form(order: int) -> Any:
     return (x**2 + y**2) ** (order // 2)
 
@@ -108,7 +112,7 @@ def count_2k(
     yield identity(
         r"Without the hypothesis it fails: $f = (x^2 + y^2)^m$, order $2 m$, has $F = 0$ "
         r"identically (symbolic $m$): every direction is an E-eigenvector.",
-        sp.simplify(angular((x**2 + y**2) ** m)),
+        _unevaluated_angular((x**2 + y**2) ** m),
         shows=Shows.NEEDED,
     )
     yield fact(
@@ -126,7 +130,7 @@ def count_2k(
         r"u^{(k + n) / 2}$: the directions are the roots $|u| = 1$ of $P(u) = \sum_n n \phi_n "
         r"u^{(k + n) / 2}$, of degree at most $k$, two for each root; $P = 0$ only if $g$ is "
         r"constant.",
-        sp.powsimp(e**k * e**n),
+        e**k * e**n,
         u ** ((k + n) / 2),
     )
     N = sp.Symbol("N", integer=True, positive=True)
@@ -148,14 +152,14 @@ def _sturm_hurwitz_lower() -> Iterator[Step]:
         r"\dots$, the product of $\sin((\theta - s_j) / 2)$ would change sign with it. In pairs "
         r"that product is $\frac12 \cos\frac{a - b}{2} - \frac12 \cos(\theta - \frac{a + b}{2})$, "
         r"a trigonometric polynomial of degree $s < n_{\min}$ in all.",
-        sp.expand(pair.rewrite(sp.exp)),
-        sp.expand(((sp.cos((a - b) / 2) - sp.cos(t - (a + b) / 2)) / 2).rewrite(sp.exp)),
+        pair,
+        (sp.cos((a - b) / 2) - sp.cos(t - (a + b) / 2)) / 2,
     )
     yield identity(
         r"But $\int_0^{2\pi} e^{i d \theta} = 0$ for every integer $d > 0$, so frequencies $l < "
         r"n$ are orthogonal ($d = n \pm l$), and the integral of the product times $g'$ would be "
         r"both 0 and of one strict sign.",
-        sp.integrate(sp.exp(sp.I * n * t), (t, 0, 2 * sp.pi)),
+        sp.Integral(sp.exp(sp.I * n * t), (t, 0, 2 * sp.pi)),
     )
 
 
@@ -231,13 +235,15 @@ def polynomial_degree(
     yield identity(
         r"$F(\cos\theta, \sin\theta) = \cos^k\theta\; F(1, \tan\theta)$: real, of degree $k$ "
         r"in $\tan\theta$ (on $x^i y^{k-i}$, symbolic exponents).",
-        sp.expand((angular(monomial) / monomial).subs(y, slope * x)),
-        sp.expand((angular(monomial) / monomial).subs({x: 1, y: slope})),
+        angular(monomial).subs(y, slope * x),
+        x**order * angular(monomial).subs({x: 1, y: slope}),
+        over=x**order * slope**n,
     )
     yield identity(
         r"$F$ is homogeneous of degree $k$ like $f$.",
-        sp.expand(radial(angular(monomial)) / monomial),
-        sp.expand(order * angular(monomial) / monomial),
+        radial(angular(monomial)),
+        order * angular(monomial),
+        over=monomial,
     )
 
 
@@ -258,7 +264,7 @@ def count_max_min(
     yield identity(
         r"Needed: for $f = (x^2 + y^2)^m$, $g$ is constant, and every direction is (weakly) both "
         r"a maximum and a minimum.",
-        sp.simplify(angular((x**2 + y**2) ** m)),
+        _unevaluated_angular((x**2 + y**2) ** m),
         shows=Shows.NEEDED,
     )
     a, b = sp.symbols("a b", integer=True, nonnegative=True)
@@ -412,7 +418,7 @@ def krosy_iff(orders: Orders, e: Fraction = Fraction(1, 2)) -> Iterator[Step]:
         r"All have $u_j^k = e^{2 i k \theta_0} = w$; so for odd $k$, $P = c\,(u^k - w)$: all "
         r"other $n \phi_n$ vanish, and $n = 0$ does not occur. Conversely $g = 2\,\mathrm{Re}\, "
         r"\phi_k e^{i k \theta}$ has a $k$-RoSy of maxima.",
-        sp.simplify(sp.exp(2 * sp.I * k * (t + 2 * sp.pi * _J / k))),
+        sp.exp(2 * sp.I * k * (t + 2 * sp.pi * _J / k)),
         sp.exp(2 * sp.I * k * t),
     )
 
@@ -505,8 +511,8 @@ def order3_triples(
     yield identity(
         r"Those rows: $g' = C \prod_j \sin(\theta - t_j)$ for $\phi_{33} = \frac{C}{24} e^{-i s}$, "
         r"$\phi_{31} = -\frac{C}{8} e^{-i s} \sum_j e^{2 i t_j}$, $s = t_1 + t_2 + t_3$.",
-        sp.expand(terms),
-        sp.expand(C * product_of_sines(angles).rewrite(sp.exp)),
+        terms,
+        C * product_of_sines(angles),
     )
 
 

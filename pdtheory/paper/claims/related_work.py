@@ -33,8 +33,8 @@ def error_order(
         r"the right side for $r^d e^{i n \theta}$ is $R^{k + d + 2} \mu_{k+d+1}$. So if $c_j$ "
         r"solves it for $R = 1$, $c_j R^{d - j}$ does for $R$ (symbolic exponents): $r^d$ "
         r"contributes $c_k R^{d - k}$ to order $k$.",
-        sp.powsimp(R ** (k + j + 2) * mu(k + j + 1) * c * R ** (d - j)),
-        sp.powsimp(R ** (k + d + 2) * mu(k + j + 1) * c),
+        R ** (k + j + 2) * mu(k + j + 1) * c * R ** (d - j),
+        R ** (k + d + 2) * mu(k + j + 1) * c,
     )
     yield identity(
         r"Terms with $d \leq K$ are reproduced; the first that is not is $d = K + 1$. A remainder "
@@ -52,7 +52,7 @@ def error_order(
         r"Frequencies do not mix on a full disc: $\int_0^{2\pi} e^{i n \theta} = 0$ for $n \neq "
         r"0$. Terms of degree $K + 1$ have $n = K + 1 \bmod 2$, so for $K - k$ even they do not "
         r"reach order $k$, and $d = K + 2$ comes first.",
-        sp.integrate(sp.exp(sp.I * n * t), (t, 0, 2 * sp.pi)),
+        sp.Integral(sp.exp(sp.I * n * t), (t, 0, 2 * sp.pi)),
     )
     sharp: dict[tuple[int, int], Any] = {}
     solved = True

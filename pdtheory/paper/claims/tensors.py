@@ -42,23 +42,24 @@ def tensor_contraction(
         any_index,
         first,
     )
-    for order in sorted({2, 3, *(o for o in orders if o <= LARGEST_DENSE_ORDER)}):
-        free = list(product((1, 2), repeat=order - 1))
-        same = all(
+    dense = sorted({2, 3, *(o for o in orders if o <= LARGEST_DENSE_ORDER)})
+    agree = {
+        order: all(
             sp.expand(
                 x * (component((*j[:place], 1, *j[place:])) - component((1, *j)))
                 + y * (component((*j[:place], 2, *j[place:])) - component((2, *j)))
             )
             == 0
-            for j in free
+            for j in product((1, 2), repeat=order - 1)
             for place in range(order)
         )
-        yield fact(
-            rf"All {order} contractions of the dense array of order {order} agree.",
-            same,
-            order=order,
-            entries=2 ** (order - 1),
-        )
+        for order in dense
+    }
+    yield fact(
+        "Written out: all contractions of the dense array with symbolic entries agree.",
+        all(agree.values()),
+        orders=dense,
+    )
 
 
 @section.claim(
@@ -112,14 +113,15 @@ def symmetry_definition(orders: Orders, first_index: int = 1) -> Iterator[Step]:
 
 def _euler() -> Step:
     monomial = x**i * y ** (k - i)
-    t_x, t_y = tensor_on(monomial, k)
+    gradient = (sp.Derivative(monomial, x), sp.Derivative(monomial, y))
     return identity(
         r"$v \cdot T v^{k-1} = T v^k$, on $x^i y^{k-i}$ with symbolic $i$ and $k$, hence by "
         r"linearity for every tensor of every order. So $T v^{k-1} = \lambda v$ and $v \cdot v = "
         r"1$ give $\lambda = \lambda\, v \cdot v = T v^k$, a real polynomial in $v$: real for "
         r"real $v$.",
-        sp.expand((x * t_x + y * t_y) / monomial),
-        1,
+        (x * gradient[0] + y * gradient[1]) / k,
+        monomial,
+        over=monomial,
     )
 
 
@@ -205,10 +207,9 @@ def e_characteristic_roots(
         r"Corrected: for $v \cdot v = 1$, real or complex, $T v^{k-1} - (T v^k) v = (F / k) (-y, "
         r"x)$ with $F = x f_y - y f_x$ (first component, symbolic exponents), so E-eigenvectors "
         r"are the common zeros of $F$ and $v \cdot v - 1$, with $\lambda = f(v)$.",
-        sp.expand(
-            ((x**2 + y**2) * tensor_on(monomial, k)[0] - monomial * x + angular(monomial) * y / k)
-            / monomial
-        ),
+        (x**2 + y**2) * sp.Derivative(monomial, x) / k - monomial * x,
+        -y / k * (x * sp.Derivative(monomial, y) - y * sp.Derivative(monomial, x)),
+        over=monomial,
     )
     yield from _resultant_roots(f, lam)
 
