@@ -43,7 +43,7 @@ def eigen(
     from pdtheory.exact.expression import parse_expression
     from pdtheory.exact.report import orders_of, report
 
-    _check_digits(digits)
+    check_digits(digits)
     symbols = sp.Symbol("x"), sp.Symbol("y")
     formula = parse_expression(expression)
     forms = orders_of(formula, symbols, order=order, max_order=max_order)
@@ -119,6 +119,7 @@ def _number(value: Any) -> str:
     return mantissa + exponent + power
 
 
-def _check_digits(digits: int) -> None:
+def check_digits(digits: int) -> None:
+    """Refuse a number of digits that is not positive or too large."""
     if not 1 <= digits <= MOST_DIGITS:
         raise InputError(f"--digits is {digits}; it must be from 1 to {MOST_DIGITS}.")

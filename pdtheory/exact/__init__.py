@@ -2,15 +2,19 @@
 
 from pdtheory.exact.algebraic import RealAlgebraic
 from pdtheory.exact.balls import Enclosure
+from pdtheory.exact.cones import Cone, cone_coefficient, radial_moment
 from pdtheory.exact.eigenpairs import EigenPair, EigenPairs, real_eigenpairs
 from pdtheory.exact.expression import parse_expression
 from pdtheory.exact.faces import BinaryForm, Face, SymmetricTensor, WavejetsRow
 from pdtheory.exact.jets import SurfaceJet, explicit_jet, implicit_jet, parametric_jet
+from pdtheory.exact.prediction import ConePrediction, predict
 from pdtheory.exact.report import report
 from pdtheory.exact.series import differential_tensor, taylor_forms
 
 __all__ = [
     "BinaryForm",
+    "Cone",
+    "ConePrediction",
     "EigenPair",
     "EigenPairs",
     "Enclosure",
@@ -19,11 +23,14 @@ __all__ = [
     "SurfaceJet",
     "SymmetricTensor",
     "WavejetsRow",
+    "cone_coefficient",
     "differential_tensor",
     "explicit_jet",
     "implicit_jet",
     "parametric_jet",
     "parse_expression",
+    "predict",
+    "radial_moment",
     "real_eigenpairs",
     "report",
     "taylor_forms",

@@ -89,7 +89,10 @@ class EigenPair:
 
     @cached_property
     def eigenvalue_number(self) -> RealAlgebraic:
-        """lambda as a real algebraic number, with its minimal polynomial."""
+        """lambda as a real algebraic number, with its minimal polynomial.
+
+        Where the coefficients have a transcendental common factor it is lambda over that factor.
+        """
         if self.vanishing:
             return RealAlgebraic.rational(0)
         coefficients = self._numbers.in_generator
@@ -99,12 +102,12 @@ class EigenPair:
         else:
             modulus = self.tangent.polynomial
         polynomial = value_polynomial(coefficients, self._numbers.generator.polynomial, modulus)
-        return RealAlgebraic.select(polynomial, self._enclose_eigenvalue)
+        return RealAlgebraic.select(polynomial, lambda bits: self._enclose_eigenvalue(bits, False))
 
     @property
     def eigenvalue(self) -> Any:
         """lambda, exactly: radicals if short, else a root of its minimal polynomial."""
-        return self.eigenvalue_number.exact
+        return self._numbers.factor * self.eigenvalue_number.exact
 
     def angle_enclosure(self, digits: int = 15) -> Enclosure:
         """Return an enclosure of theta in degrees, in [0, 360), of relative width 10^-digits."""
@@ -145,10 +148,12 @@ class EigenPair:
         """Return lambda for people; beyond a degree of `LARGEST_TEXT` by its enclosure alone."""
         degree = self._numbers.generator.degree * (self.tangent.degree if self.tangent else 1)
         if self.vanishing or degree <= LARGEST_TEXT:
-            return self.eigenvalue_number.text(digits)
+            text = self.eigenvalue_number.text(digits)
+            factor = self._numbers.factor
+            return text if factor == 1 else f"({factor}) times {text}"
         return f"in {self.eigenvalue_enclosure(digits).text(digits)}"
 
-    def _enclose_eigenvalue(self, bits: int) -> Enclosure:
+    def _enclose_eigenvalue(self, bits: int, with_factor: bool = True) -> Enclosure:
         if self.vanishing:
             return Enclosure(Fraction(0), Fraction(0))
         order = len(self._numbers.expressions) - 1
@@ -165,6 +170,8 @@ class EigenPair:
                 value = horner(coefficients, t) / square ** (order // 2)
                 if order % 2:
                     value = value / engine().sqrt(square)
+            if with_factor and self._numbers.factor != 1:
+                value = value * self._numbers.factor_interval(bits)
             return engine().enclosure(value * turn**order)
 
     def _of_tangent(self, function: Callable[[Any], Any]) -> Callable[[int], Enclosure]:

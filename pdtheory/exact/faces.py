@@ -279,11 +279,17 @@ class Face(ABC):
 
 
 def is_zero(value: Any) -> bool:
-    """Decide whether an exact coefficient vanishes, by expansion and then by simplification."""
+    """Decide whether an exact coefficient vanishes.
+
+    Numbers clearly away from zero are told by evaluation; the rest by expansion and then by
+    simplification.
+    """
     if value.is_Rational:
         return bool(value == 0)
     if value.is_zero is not None:
         return bool(value.is_zero)
+    if not value.free_symbols and abs(sp.N(value, 20)) > 1e-12:
+        return False
     expanded = sp.expand(value)
     if expanded.is_zero is not None:
         return bool(expanded.is_zero)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -14,6 +14,7 @@ import sympy as sp
 from pdtheory.errors import InputError
 from pdtheory.exact.algebraic import FIRST_BITS, RealAlgebraic, precisions, primitive
 from pdtheory.exact.balls import Enclosure, engine, horner, real_roots
+from pdtheory.exact.faces import is_zero
 
 _T = sp.Symbol("t")
 
@@ -27,7 +28,10 @@ class Root(NamedTuple):
 
 @dataclass(frozen=True)
 class Coefficients:
-    """Real algebraic numbers brought into one field Q(a), or into Q.
+    """Real numbers a common factor times elements of one field Q(a), or of Q.
+
+    The factor is 1 if the numbers are algebraic. Else it is the size of the first one that does not
+    vanish, and the quotients must be algebraic: pi x^2 + pi sqrt(2) y^2 has the factor pi.
 
     Attributes
     ----------
@@ -38,30 +42,47 @@ class Coefficients:
     expressions: tuple[Any, ...]
 
     @cached_property
-    def rationals(self) -> list[Fraction] | None:
-        """The numbers as fractions if all are rational, else None."""
-        if all(e.is_Rational for e in self.expressions):
-            return [Fraction(int(e.p), int(e.q)) for e in self.expressions]
-        return None
-
-    @cached_property
-    def _field(self) -> tuple[Any, list[Any]]:
-        """The field Q(a) and the numbers as elements of it."""
+    def factor(self) -> Any:
+        """The common factor, positive."""
+        if all(e.is_algebraic for e in self.expressions):
+            return sp.Integer(1)
         for e in self.expressions:
             if e.free_symbols:
                 names = ", ".join(sorted(str(s) for s in e.free_symbols))
                 raise InputError(
-                    f"The coefficient {e} depends on {names}; put numbers in their place, or ask "
-                    "for the parametric discriminant."
+                    f"The coefficient {e} depends on {names}; put numbers in place of symbols."
                 )
+            if e.is_real is False:
+                raise InputError(f"The coefficient {e} is not real; the form must be real.")
+        lead = next(e for e in self.expressions if not is_zero(e))
+        return lead if sp.N(lead, 30) > 0 else -lead
+
+    @cached_property
+    def algebraic(self) -> tuple[Any, ...]:
+        """The numbers divided by the common factor."""
+        if self.factor == 1:
+            return self.expressions
+        return tuple(sp.radsimp(sp.cancel(e / self.factor)) for e in self.expressions)
+
+    @cached_property
+    def rationals(self) -> list[Fraction] | None:
+        """The numbers over the factor as fractions if all are rational, else None."""
+        if all(e.is_Rational for e in self.algebraic):
+            return [Fraction(int(e.p), int(e.q)) for e in self.algebraic]
+        return None
+
+    @cached_property
+    def _field(self) -> tuple[Any, list[Any]]:
+        """The field Q(a) and the numbers over the factor as elements of it."""
+        for original, e in zip(self.expressions, self.algebraic, strict=True):
+            if e.is_real is False:
+                raise InputError(f"The coefficient {original} is not real; the form must be real.")
             if not e.is_algebraic:
                 raise InputError(
-                    f"The coefficient {e} is not known to be algebraic; exact directions need "
-                    "rational or real algebraic coefficients."
+                    f"The coefficient {original} is not known to be algebraic, nor to be so over "
+                    "a common factor; exact directions need rational or real algebraic numbers."
                 )
-            if not e.is_real:
-                raise InputError(f"The coefficient {e} is not real; the form must be real.")
-        field, elements = sp.construct_domain(self.expressions, extension=True, field=True)
+        field, elements = sp.construct_domain(self.algebraic, extension=True, field=True)
         return field, elements
 
     @cached_property
@@ -72,18 +93,16 @@ class Coefficients:
             return RealAlgebraic.rational(0)
         minimal = primitive([Fraction(int(c.p), int(c.q)) for c in _rationals(field.mod.to_list())])
         expression = field.ext.as_expr()
+        return RealAlgebraic.select(minimal, lambda bits: evaluated(expression, bits))
 
-        def enclose(bits: int) -> Enclosure:
-            value = sp.N(expression, int(bits * 0.302) + 5)
-            middle = Fraction(*(int(p) for p in sp.Rational(value).as_numer_denom()))
-            slack = max(Fraction(1), abs(middle)) / 2 ** (bits - 8)
-            return Enclosure(middle - slack, middle + slack)
-
-        return RealAlgebraic.select(minimal, enclose)
+    @cached_property
+    def factor_interval(self) -> Callable[[int], Any]:
+        """An interval number for the common factor at a working precision in bits."""
+        return lambda bits: engine().interval(evaluated(self.factor, bits))
 
     @cached_property
     def in_generator(self) -> list[list[Fraction]]:
-        """Each number as a polynomial in the generator, constant term first."""
+        """Each number over the factor as a polynomial in the generator, constant term first."""
         if self.rationals is not None:
             return [[r] for r in self.rationals]
         field, elements = self._field
@@ -95,12 +114,23 @@ class Coefficients:
         ]
 
     def intervals(self, bits: int) -> list[Any]:
-        """Return interval numbers of the engine for the coefficients (inside its `precision`)."""
+        """Return interval numbers for the coefficients over the factor (inside `precision`)."""
         number = engine().interval
         if self.rationals is not None:
             return [number(Enclosure(r, r)) for r in self.rationals]
         a = number(self.generator.at_precision(bits))
         return [horner([number(Enclosure(c, c)) for c in p], a) for p in self.in_generator]
+
+
+def evaluated(expression: Any, bits: int) -> Enclosure:
+    """Return an enclosure of a constant expression by SymPy's evaluation to a given accuracy."""
+    if expression.is_Rational:
+        value = Fraction(int(expression.p), int(expression.q))
+        return Enclosure(value, value)
+    value = sp.Rational(sp.N(expression, int(bits * 0.302) + 5))
+    middle = Fraction(int(value.p), int(value.q))
+    slack = max(Fraction(1), abs(middle)) / 2 ** (bits - 8)
+    return Enclosure(middle - slack, middle + slack)
 
 
 def _rationals(leading_first: Sequence[Any]) -> list[Any]:
