@@ -99,29 +99,19 @@ def _write_phi(c: Array, fit: Fit, alpha: float, radius: float, tables: Tables, 
 
 @inner
 def _insert(
-    first: int,
-    count: int,
-    angle: float,
-    g: float,
-    kind: int,
-    angle_std: float,
-    g_std: float,
-    out: Output,
+    found: Array, count: int, angle: float, g: float, kind: float, angle_std: float, g_std: float
 ) -> None:
-    """Insert one direction among the `count` of a point from row `first`, by ascending angle."""
-    at = first + count
-    while at > first and out.angle[at - 1] > angle:
-        out.angle[at] = out.angle[at - 1]
-        out.eigenvalue[at] = out.eigenvalue[at - 1]
-        out.kind[at] = out.kind[at - 1]
-        out.angle_std[at] = out.angle_std[at - 1]
-        out.eigenvalue_std[at] = out.eigenvalue_std[at - 1]
+    """Insert a direction among the `count` rows of `found`, by ascending angle."""
+    at = count
+    while at > 0 and found[at - 1, 0] > angle:
+        for i in range(5):
+            found[at, i] = found[at - 1, i]
         at -= 1
-    out.angle[at] = angle
-    out.eigenvalue[at] = g
-    out.kind[at] = kind
-    out.angle_std[at] = angle_std
-    out.eigenvalue_std[at] = g_std
+    found[at, 0] = angle
+    found[at, 1] = g
+    found[at, 2] = kind
+    found[at, 3] = angle_std
+    found[at, 4] = g_std
 
 
 @inner
@@ -135,21 +125,17 @@ def _rounding(fit: Fit, order: int, level: float, s: Scratch) -> float:
 
 
 @inner
-def _write_order(
-    row: int,
+def _find_directions(
     order: int,
     fit: Fit,
     noise: float,
     level: float,
     alpha: float,
-    radius: float,
-    frame: Array,
     settings: Settings,
     tables: Tables,
     s: Scratch,
-    out: Output,
 ) -> tuple[int, bool]:
-    """Write the directions of one order at one point from row `row` on.
+    """Write the directions of one order at one point to ``s.found``, in units of the radius.
 
     Returns
     -------
@@ -193,10 +179,6 @@ def _write_order(
             s.spreads,
             s.covariance,
         )
-    factorial = 1.0
-    for i in range(2, order + 1):
-        factorial *= i
-    unit = factorial * radius ** (1.0 - order)
     mirror = -1.0 if order % 2 else 1.0
     for i in range(found):
         theta = s.angle[i]
@@ -207,19 +189,29 @@ def _write_order(
             slope, height = direction_variances(s.covariance, order, theta, s.spreads)
             curvature = abs(evaluate(s.re, s.im, order, theta)[1]) * largest
             angle_std = noise * np.sqrt(slope) / curvature if curvature > 0.0 else np.inf
-            g_std = noise * np.sqrt(height) * unit
+            g_std = noise * np.sqrt(height)
         for turn in range(2):
             angle = (theta - alpha + turn * np.pi) % (2.0 * np.pi)
             sign = mirror if turn else 1.0
-            kind = int(sign) * s.kind[i]
-            _insert(row, 2 * i + turn, angle, sign * g * unit, kind, angle_std, g_std, out)
-    for i in range(row, row + 2 * found):
-        c = np.cos(out.angle[i])
-        d = np.sin(out.angle[i])
-        for axis in range(3):
-            out.vector[i, axis] = c * frame[0, axis] + d * frame[1, axis]
-        out.strength[i] = abs(out.eigenvalue[i]) / unit
+            _insert(s.found, 2 * i + turn, angle, sign * g, sign * s.kind[i], angle_std, g_std)
     return 2 * found, False
+
+
+@inner
+def _store(found: Array, count: int, row: int, unit: float, frame: Array, out: Output) -> None:
+    """Copy directions to the output from row `row` on; `unit` turns g into lambda."""
+    for i in range(count):
+        angle = found[i, 0]
+        c = np.cos(angle)
+        s = np.sin(angle)
+        out.angle[row + i] = angle
+        for axis in range(3):
+            out.vector[row + i, axis] = c * frame[0, axis] + s * frame[1, axis]
+        out.eigenvalue[row + i] = found[i, 1] * unit
+        out.strength[row + i] = abs(found[i, 1])
+        out.kind[row + i] = np.int8(found[i, 2])
+        out.angle_std[row + i] = found[i, 3]
+        out.eigenvalue_std[row + i] = found[i, 4] * unit
 
 
 @inner
@@ -351,20 +343,11 @@ def run_chunk(
         for j in range(len(orders)):
             if orders[j] > fit.degree:
                 continue
-            written, isotropic = _write_order(
-                filled[j],
-                orders[j],
-                fit,
-                noise,
-                level,
-                alpha,
-                radius,
-                out.frames[q],
-                settings,
-                tables,
-                scratch,
-                out,
+            written, isotropic = _find_directions(
+                orders[j], fit, noise, level, alpha, settings, tables, scratch
             )
+            unit = tables.factorial[orders[j]] * radius ** (1.0 - orders[j])
+            _store(scratch.found, written, filled[j], unit, out.frames[q], out)
             out.counts[j, q] = written
             out.isotropic[j, q] = isotropic
             filled[j] += written

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from math import comb
+from math import comb, factorial
 from typing import Any, NamedTuple
 
 import numpy as np
+from numba import types
+from numba.experimental import structref
 
 from pdtheory.conventions import frequencies
 from pdtheory.pointset.kernels.jit import inner
@@ -24,6 +26,8 @@ class Tables(NamedTuple):
         phi_{k,n} = sum_b (real + i imaginary)[k, j, b] c_{k-b,b} with n = k mod 2 + 2 j.
     binomial : (K + 1, K + 1) float64
         Binomial coefficients.
+    factorial : (K + 1,) float64
+        k!.
     cosines, sines : (K + 1, SAMPLES + 1) float64
         cos and sin of n theta_j, theta_j = j pi / SAMPLES.
     """
@@ -31,12 +35,18 @@ class Tables(NamedTuple):
     real: Any
     imaginary: Any
     binomial: Any
+    factorial: Any
     cosines: Any
     sines: Any
 
 
-class Scratch(NamedTuple):
-    """Working memory, reused from point to point."""
+@structref.register
+class _ScratchType(types.StructRef):
+    """The type of `Scratch` in compiled code: a reference, so that it costs nothing to pass on."""
+
+
+class Scratch(structref.StructRefProxy):
+    """Working memory, reused from point to point; allocated by `make_scratch`."""
 
     X: Any
     V: Any
@@ -65,6 +75,10 @@ class Scratch(NamedTuple):
     kind: Any
     spreads: Any
     covariance: Any
+    found: Any
+
+
+structref.define_proxy(Scratch, _ScratchType, list(Scratch.__annotations__))
 
 
 @lru_cache(maxsize=16)
@@ -88,8 +102,9 @@ def make_tables(degree: int) -> Tables:
                 real[k, j, b] = value.real
                 imaginary[k, j, b] = value.imag
     binomial = np.array([[comb(i, j) for j in range(degree + 1)] for i in range(degree + 1)], float)
+    factorials = np.array([factorial(k) for k in range(degree + 1)], float)
     angles = np.outer(np.arange(degree + 1), np.arange(SAMPLES + 1) * (np.pi / SAMPLES))
-    return Tables(real, imaginary, binomial, np.cos(angles), np.sin(angles))
+    return Tables(real, imaginary, binomial, factorials, np.cos(angles), np.sin(angles))
 
 
 @inner
@@ -125,4 +140,5 @@ def make_scratch(degree: int) -> Scratch:
         np.empty(degree + 1, dtype=np.int8),
         np.empty((max(degree + 1, 4), n)),
         np.empty((degree + 1, degree + 1)),
+        np.empty((2 * degree, 5)),
     )
