@@ -177,8 +177,10 @@ class RealAlgebraic:
     def text(self, digits: int = 15) -> str:
         """Return the number for people: short radicals, or minimal polynomial and enclosure."""
         short = self.radical
-        if short is not None:
+        if short is not None and len(str(short)) <= SHORT:
             return str(short)
+        if self.is_rational:
+            return f"in {self.enclosure(digits).text(digits)}"
         if len(self.polynomial) > 30:
             polynomial = f"an irreducible polynomial of degree {self.degree}"
         else:

@@ -109,6 +109,8 @@ def report(faces: Iterable[Face]) -> dict[str, Any]:
 
 
 def short(expression: Any, length: int = 60) -> str:
-    """Return the text of an expression, cut to a length."""
+    """Return the text of an expression; with rounded numbers, and then cut, where it is too long."""
     text = sp.sstr(expression)
+    if len(text) > length:
+        text = sp.sstr(sp.N(expression, 6))
     return text if len(text) <= length else text[: length - 3] + "..."

@@ -78,8 +78,9 @@ class Coefficients:
             if e.is_real is False:
                 raise InputError(f"The coefficient {original} is not real; the form must be real.")
             if not e.is_algebraic:
+                culprit = next((c for c in self.expressions if not c.is_algebraic), original)
                 raise InputError(
-                    f"The coefficient {original} is not known to be algebraic, nor to be so over "
+                    f"The coefficient {culprit} is not known to be algebraic, nor to be so over "
                     "a common factor; exact directions need rational or real algebraic numbers."
                 )
         field, elements = sp.construct_domain(self.algebraic, extension=True, field=True)
