@@ -18,6 +18,8 @@ from pdtheory.exact.balls import Enclosure, Integers, engine, real_roots
 
 #: Longest text of a radical that is shown instead of the minimal polynomial.
 SHORT: Final = 48
+#: Longest text of a minimal polynomial that is shown.
+LONG: Final = 400
 #: Bits with which work starts, and where it is given up (a comparison that never ends).
 FIRST_BITS: Final = 96
 LAST_BITS: Final = 1 << 20
@@ -180,11 +182,10 @@ class RealAlgebraic:
         if short is not None and len(str(short)) <= SHORT:
             return str(short)
         if self.is_rational:
-            return f"in {self.enclosure(digits).text(digits)}"
-        if len(self.polynomial) > 30:
+            return f"a number in {self.enclosure(digits).text(digits)}"
+        polynomial = str(sp.Poly(self.polynomial[::-1], _T).as_expr())
+        if len(polynomial) > LONG:
             polynomial = f"an irreducible polynomial of degree {self.degree}"
-        else:
-            polynomial = str(sp.Poly(self.polynomial[::-1], _T).as_expr())
         return f"the root of {polynomial} in {self.enclosure(digits).text(digits)}"
 
 

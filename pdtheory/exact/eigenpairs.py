@@ -151,7 +151,7 @@ class EigenPair:
             text = self.eigenvalue_number.text(digits)
             factor = self._numbers.factor
             return text if factor == 1 else f"({factor}) times {text}"
-        return f"in {self.eigenvalue_enclosure(digits).text(digits)}"
+        return f"a number in {self.eigenvalue_enclosure(digits).text(digits)}"
 
     def _enclose_eigenvalue(self, bits: int, with_factor: bool = True) -> Enclosure:
         if self.vanishing:

@@ -109,7 +109,7 @@ def report(faces: Iterable[Face]) -> dict[str, Any]:
 
 
 def short(expression: Any, length: int = 60) -> str:
-    """Return the text of an expression; with rounded numbers, and then cut, where it is too long."""
+    """Return the text of an expression; where too long, with rounded numbers, and then cut."""
     text = sp.sstr(expression)
     if len(text) > length:
         text = sp.sstr(sp.N(expression, 6))
