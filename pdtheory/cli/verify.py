@@ -85,10 +85,9 @@ def _print(console: Console, results: list[Result]) -> None:
 
 
 def _table(results: list[Result]) -> Table:
-    from rich import box
     from rich.table import Table
 
-    table = Table(title="The paper, checked", box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0))
+    table = Table(title="The paper, checked", box=None, padding=(0, 1, 0, 0))
     table.add_column("sec.", justify="right")
     table.add_column("claim", no_wrap=True)
     table.add_column("verdict", min_width=len("configuration-dependent"))

@@ -14,14 +14,17 @@ from pdtheory.paper.claims.core import Orders, Section, Step
 from pdtheory.paper.claims.kit import (
     circle_point,
     count_maxima,
+    critical,
     fact,
     form_of_row,
     identity,
     is_maximum,
     k,
+    lines_are_maxima,
     n,
     product_of_sines,
     row_of_lines,
+    star,
     t,
     x,
     y,
@@ -84,23 +87,18 @@ def k_rosy(
         for frequency in allowed(order):
             row[frequency] = (Fraction(1, 2 if frequency else 3), Fraction(0))
         p = form_of_row(order, row)
-        results[order] = count_maxima(order, p), _is_regular(order, p)
+        results[order] = count_maxima(order, p), _is_star(order, p)
     yield fact(
         r"Conversely $g = \phi_0 + 2\,\mathrm{Re}\, \phi_k e^{i k \theta}$ has $k$ maxima at $2 "
-        r"\pi j / k$ (Sturm counts; exact at those that are rational points).",
+        r"\pi j / k$: Sturm counts, and $F$ divides into $\mathrm{Im}\,(x + i y)^k$ exactly.",
         all(found == (order, True) for order, found in results.items()),
         results=results,
     )
 
 
-def _is_regular(order: int, p: Any) -> bool:
-    """Test the rational points among the angles 2 pi j / k (multiples of 90 degrees) exactly."""
-    quarters = [(1, 0), (0, 1), (-1, 0), (0, -1)]
-    return all(
-        is_maximum(order, p, (Fraction(c), Fraction(s)))
-        for j, (c, s) in enumerate(quarters)
-        if (j * order) % 4 == 0
-    )
+def _is_star(order: int, p: Any) -> bool:
+    """Tell whether the critical lines are exactly the multiples of 180 / k degrees."""
+    return critical(order, p) % star(order) == 0
 
 
 @section.claim(
@@ -143,10 +141,11 @@ def k_rosy_maxima(orders: Orders, weight: Any = k - n, bound: Any = 4) -> Iterat
     for order in (o for o in _even(orders) if o >= 4):
         row = _regular_maxima_row(order, generator)
         p = form_of_row(order, row)
-        lines[order] = (count_maxima(order, p), _is_regular(order, p))
+        lines[order] = (count_maxima(order, p), lines_are_maxima(order, p, order // 2))
     yield fact(
-        r"Random rows that satisfy the conditions with $\theta_0 = 0$: $k$ maxima (Sturm), "
-        r"exactly at the multiples of 90 degrees among the $2 \pi j / k$.",
+        r"Random rows that satisfy the conditions with $\theta_0 = 0$: $k$ maxima (Sturm counts), "
+        r"and they are $2 \pi j / k$: $\mathrm{Im}\,(x + i y)^{k/2}$ divides $F$ and $g''$ is "
+        r"negative at its roots (Tarski queries).",
         all(found == (order, True) for order, found in lines.items()),
         results=lines,
     )

@@ -151,15 +151,18 @@ def real_lines(degree: int, polynomial: Any) -> dict[int, int]:
     return counts
 
 
-def sturm_count(squarefree: Any) -> int:
-    """Return the number of real roots of a squarefree polynomial: V(-oo) - V(+oo)."""
+def sturm_count(squarefree: Any, weight: Any = 1) -> int:
+    """Return the number of real roots, or the sum of the signs of `weight` at them.
+
+    It is V(-oo) - V(+oo) of the chain that starts with p and p' times the weight (Sturm; Tarski).
+    """
     chain = [flint.fmpq_poly(squarefree)]
-    chain.append(chain[0].derivative())
+    chain.append(chain[0].derivative() * weight)
     while chain[-1].degree() > 0:
         remainder = chain[-2] % chain[-1]
         if remainder == 0:
             break
-        # Sturm's sequence is the same up to positive factors; keep the numbers short.
+        # The chain is the same up to positive factors; keep the numbers short.
         chain.append(flint.fmpq_poly(-remainder.numer() / remainder.numer().content()))
     right = [_sign(p[p.degree()]) for p in chain if p != 0]
     left = [s * (-1) ** p.degree() for s, p in zip(right, chain, strict=False)]
@@ -184,6 +187,28 @@ def count_maxima(order: int, p: Any) -> int | None:
     if F == 0:
         return None
     return sum(found for power, found in real_lines(order, F).items() if power % 2)
+
+
+def star(order: int) -> Any:
+    """Return Im (1 + i t)^k, whose lines are the multiples of 180 / k degrees."""
+    return form_of_row(order, {order: (Fraction(0), Fraction(-1, 2))})
+
+
+def lines_are_maxima(order: int, p: Any, lines: int) -> bool:
+    """Tell whether all multiples of 180 / `lines` degrees are maxima of an even order, exactly.
+
+    The star of these lines must divide F, and the sum of the signs of g'' at them, a Tarski query,
+    must be minus their number.
+    """
+    F = critical(order, p)
+    product = star(lines)
+    if F == 0 or F % product != 0:
+        return False
+    # The derivative of F along the circle, at (1, t); it has the sign of g''.
+    second = critical(order, F)
+    finite = sturm_count(product, second)
+    at_infinity = _sign(second[order]) if product.degree() < lines else 0
+    return finite + at_infinity == -lines
 
 
 def is_maximum(order: int, p: Any, point: tuple[Fraction, Fraction]) -> bool:
