@@ -16,6 +16,7 @@ from synthetic_surfaces.chart import Chart
 from synthetic_surfaces.description import Description
 from synthetic_surfaces.parameters import Parameters
 from synthetic_surfaces.spread import OVERSAMPLING, thin
+from synthetic_surfaces.truth import Site
 
 Method = Literal["area", "blue", "grid"]
 NoiseAlong = Literal["normal", "position"]
@@ -80,6 +81,10 @@ class Surface(ABC):
     @abstractmethod
     def describe(self) -> Description:
         """Return the exact description, with the values of the parameters in it."""
+
+    @abstractmethod
+    def sites(self) -> tuple[Site, ...]:
+        """Return points at which the true directions are known, the most telling one first."""
 
     @abstractmethod
     def charts(self) -> Sequence[Chart]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from fractions import Fraction
 from functools import partial
 from typing import Any
 
@@ -13,6 +14,7 @@ from synthetic_surfaces.base import Surface
 from synthetic_surfaces.chart import Chart, from_map
 from synthetic_surfaces.description import Description
 from synthetic_surfaces.parameters import Parameter
+from synthetic_surfaces.truth import Site
 
 
 class CadPart(Surface):
@@ -50,6 +52,15 @@ class CadPart(Surface):
                 "t from 0 to 1 along the sector"
             ),
         )
+
+    def sites(self) -> tuple[Site, ...]:
+        outer, height = self.values["outer"], self.values["height"]
+        # A rational point of the circle near the middle of the wall.
+        tangent = Fraction(np.tan(np.radians(self.number("opening")) / 4)).limit_denominator(20)
+        square = tangent**2
+        place = (outer * (1 - square) / (1 + square), outer * 2 * tangent / (1 + square))
+        wall = Description("implicit", (f"x**2 + y**2 - ({outer})**2",))
+        return (Site("outer wall", wall, (str(place[0]), str(place[1]), str(height / 2))),)
 
     def charts(self) -> Sequence[Chart]:
         """Return floor, top and both ends in two bands each, and the two round walls.

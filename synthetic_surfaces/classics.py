@@ -13,6 +13,7 @@ from synthetic_surfaces.base import Surface
 from synthetic_surfaces.chart import Chart, Evaluate, from_map
 from synthetic_surfaces.description import Description
 from synthetic_surfaces.parameters import Parameter, Parameters
+from synthetic_surfaces.truth import Site
 
 #: (u, v) of shape (m,), real or complex, to unit vectors (m, 3).
 Direction = Callable[[Any, Any], Any]
@@ -49,6 +50,9 @@ class Plane(Surface):
     def describe(self) -> Description:
         return Description("implicit", ("z",))
 
+    def sites(self) -> tuple[Site, ...]:
+        return (Site("centre", self.describe(), ("0", "0", "0")),)
+
     def charts(self) -> Sequence[Chart]:
         side = self.number("side")
 
@@ -76,6 +80,9 @@ class Ellipsoid(Surface):
     def describe(self) -> Description:
         parts = (f"({x}/({axis}))**2" for x, axis in zip("xyz", self.axes(), strict=True))
         return Description("implicit", (" + ".join(parts) + " - 1",))
+
+    def sites(self) -> tuple[Site, ...]:
+        return (Site("tip on x", self.describe(), (self.axes()[0], "0", "0")),)
 
     def charts(self) -> Sequence[Chart]:
         """Return the six faces of a cube, blown up to the ellipsoid: no poles."""
@@ -118,6 +125,9 @@ class Cylinder(Surface):
     def describe(self) -> Description:
         return Description("implicit", (f"x**2 + y**2 - ({self.values['radius']})**2",))
 
+    def sites(self) -> tuple[Site, ...]:
+        return (Site("side", self.describe(), (str(self.values["radius"]), "0", "0")),)
+
     def charts(self) -> Sequence[Chart]:
         radius, length = self.number("radius"), self.number("length")
 
@@ -152,6 +162,14 @@ class Torus(Surface):
         square = f"(x**2 + y**2 + z**2 + ({major})**2 - ({minor})**2)**2"
         return Description("implicit", (f"{square} - 4*({major})**2*(x**2 + y**2)",))
 
+    def sites(self) -> tuple[Site, ...]:
+        major, minor = self.values["major"], self.values["minor"]
+        return (
+            Site("outer equator", self.describe(), (str(major + minor), "0", "0")),
+            Site("inner equator", self.describe(), (str(major - minor), "0", "0")),
+            Site("top", self.describe(), (str(major), "0", str(minor))),
+        )
+
     def charts(self) -> Sequence[Chart]:
         major, minor = self.number("major"), self.number("minor")
 
@@ -181,6 +199,9 @@ class Enneper(Surface):
             "parametric",
             ("u - u**3/3 + u*v**2", "-v + v**3/3 - v*u**2", "u**2 - v**2"),
         )
+
+    def sites(self) -> tuple[Site, ...]:
+        return (Site("u = 1/4, v = 1/8", self.describe(), ("1/4", "1/8")),)
 
     def charts(self) -> Sequence[Chart]:
         size = self.number("size")

@@ -13,6 +13,7 @@ from pdtheory.pointset.cloud import FloatArray
 from synthetic_surfaces.description import Description
 from synthetic_surfaces.height import EXTENT, HeightSurface
 from synthetic_surfaces.parameters import Parameter, Parameters
+from synthetic_surfaces.truth import Site
 
 SLOPE = Parameter("slope", 1, "steepness of the faces, as height over distance", 1e-6, 1e3)
 
@@ -23,6 +24,9 @@ class ConeSurface(HeightSurface):
     @abstractmethod
     def rays(self) -> list[tuple[float, float]]:
         """Return angle in radians and slope of h along each ray, by ascending angle."""
+
+    def sites(self) -> tuple[Site, ...]:
+        return (Site("apex", self.describe(), place=np.zeros(3), frame=np.eye(3)),)
 
     @property
     def creases(self) -> tuple[float, ...]:

@@ -11,6 +11,7 @@ from pdtheory.pointset.cloud import FloatArray, IntArray
 from synthetic_surfaces.base import Surface
 from synthetic_surfaces.chart import Chart, Evaluate, weld
 from synthetic_surfaces.parameters import Parameter
+from synthetic_surfaces.truth import Site
 
 #: How far from a crease, in radians, its sides are looked at, and how far from an apex in extents.
 _INSIDE = 1e-9
@@ -28,6 +29,9 @@ class HeightSurface(Surface):
     @abstractmethod
     def gradient(self, x: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return dz/dx and dz/dy at x, y, all of the same shape."""
+
+    def sites(self) -> tuple[Site, ...]:
+        return (Site("origin", self.describe(), ("0", "0")),)
 
     @property
     def creases(self) -> tuple[float, ...]:

@@ -62,7 +62,10 @@ class RidgeToJunction(HeightSurface):
 
 
 class SmoothTJunction(HeightSurface):
-    """The T of three gable roofs with |t| replaced by sqrt(t^2 + smoothing^2) throughout."""
+    """The T of three gable roofs with every |t| replaced by sqrt(t^2 + m smoothing^2).
+
+    The m = 1, 1, 3 and 2 make all roots rational at the origin, which keeps the exact jet short.
+    """
 
     name = "smooth-t-junction"
     summary = "T-junction of three gable roofs, smoothed to an analytic surface"
@@ -75,25 +78,25 @@ class SmoothTJunction(HeightSurface):
     def describe(self) -> Description:
         slope, soft = self.values["slope"], f"({self.values['smoothing']})**2"
         a, b = f"sqrt(y**2 + {soft})", f"sqrt(x**2 + {soft})"
-        larger = f"({b} - y + sqrt(({b} + y)**2 + {soft}))/2"
+        larger = f"({b} - y + sqrt(({b} + y)**2 + 3*{soft}))/2"
         return Description(
             "height",
-            (f"-({slope})*({a} + {larger} - sqrt(({a} - {larger})**2 + {soft}))/2",),
+            (f"-({slope})*({a} + {larger} - sqrt(({a} - {larger})**2 + 2*{soft}))/2",),
         )
 
     def _jet(self, x: FloatArray, y: FloatArray) -> _Jet:
         """Return min(|y|, max(|x|, -y)), smoothed, with its derivatives."""
         zero, one = np.zeros_like(x), np.ones_like(x)
         across = self._size((y, zero, one))
-        away = _plus(self._size((x, one, zero)), (-y, zero, -one))
-        apart = self._size(_plus(self._size((x, one, zero)), (y, zero, one)))
-        larger = _times(_plus(away, apart), 0.5)
-        gap = self._size(_plus(across, _times(larger, -1.0)))
+        away = self._size((x, one, zero))
+        apart = self._size(_plus(away, (y, zero, one)), 3)
+        larger = _times(_plus(_plus(away, (-y, zero, -one)), apart), 0.5)
+        gap = self._size(_plus(across, _times(larger, -1.0)), 2)
         return _times(_plus(_plus(across, larger), _times(gap, -1.0)), 0.5)
 
-    def _size(self, jet: _Jet) -> _Jet:
+    def _size(self, jet: _Jet, more: int = 1) -> _Jet:
         value, dx, dy = jet
-        size = np.sqrt(value**2 + self.number("smoothing") ** 2)
+        size = np.sqrt(value**2 + more * self.number("smoothing") ** 2)
         return size, value / size * dx, value / size * dy
 
     def height(self, x: FloatArray, y: FloatArray) -> FloatArray:

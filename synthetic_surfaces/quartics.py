@@ -13,6 +13,7 @@ from synthetic_surfaces.chart import Chart, Evaluate, from_map
 from synthetic_surfaces.classics import Direction, cube_directions
 from synthetic_surfaces.description import Description
 from synthetic_surfaces.parameters import Parameter
+from synthetic_surfaces.truth import Site
 
 
 class Goursat(Surface):
@@ -30,6 +31,12 @@ class Goursat(Surface):
         a, b, c = (self.values[name] for name in "abc")
         s = "(x**2 + y**2 + z**2)"
         return Description("implicit", (f"x**4 + y**4 + z**4 + ({a})*{s}**2 + ({b})*{s} + ({c})",))
+
+    def sites(self) -> tuple[Site, ...]:
+        a, b, c = (self.values[name] for name in "abc")
+        # On an axis (1 + a) r^4 + b r^2 + c = 0.
+        radius = f"sqrt((sqrt({b**2 - 4 * (1 + a) * c}) - ({b}))/({2 * (1 + a)}))"
+        return (Site("middle of a face", self.describe(), (radius, "0", "0")),)
 
     def charts(self) -> Sequence[Chart]:
         """Return the six faces of a cube, each direction carried out to the surface."""
@@ -73,6 +80,13 @@ class Cyclide(Surface):
                 f"(x**2 + y**2 + z**2 + ({square - d**2}))**2 - 4*(({a})*x - ({c * d}))**2 "
                 f"- 4*({square})*y**2",
             ),
+        )
+
+    def sites(self) -> tuple[Site, ...]:
+        a, c, d = (self.values[name] for name in "acd")
+        return (
+            Site("where the tube is thick", self.describe(), (str(d + c - a), "0", "0")),
+            Site("where the tube is thin", self.describe(), (str(a + c - d), "0", "0")),
         )
 
     def charts(self) -> Sequence[Chart]:

@@ -13,6 +13,7 @@ from synthetic_surfaces.base import Surface
 from synthetic_surfaces.chart import Chart, from_map
 from synthetic_surfaces.description import Description
 from synthetic_surfaces.parameters import Parameter, Parameters
+from synthetic_surfaces.truth import Site
 
 _UNIT = np.eye(3)
 
@@ -42,6 +43,20 @@ class RoundedCube(Surface):
                 f"rounded by radius {self.values['rounding']}: 6 squares, 12 quarter cylinders "
                 "and 8 octants of spheres"
             ),
+        )
+
+    def sites(self) -> tuple[Site, ...]:
+        radius = self.values["rounding"]
+        inner = self.values["side"] / 2 - radius
+        x, y, z = (f"({name} - {inner})**2" for name in "xyz")
+        on_edge, on_corner = (f"{inner} + {radius}/sqrt({n})" for n in (2, 3))
+        corner = Description("implicit", (f"{x} + {y} + {z} - ({radius})**2",))
+        edge = Description("implicit", (f"{x} + {y} - ({radius})**2",))
+        face = Description("implicit", (f"x - {inner + radius}",))
+        return (
+            Site("edge", edge, (on_edge, on_edge, "0")),
+            Site("corner", corner, (on_corner, on_corner, on_corner)),
+            Site("face", face, (str(inner + radius), "0", "0")),
         )
 
     def charts(self) -> Sequence[Chart]:
@@ -86,6 +101,33 @@ class Cube(Surface):
     def describe(self) -> Description:
         side = self.values["side"]
         return Description("pieces", words=f"cube of side {side} around the origin: 6 squares")
+
+    def sites(self) -> tuple[Site, ...]:
+        half = self.number("side") / 2
+        ridge = (("0", "0"), ("90", "-1"), ("180", "0"), ("270", "-1"))
+        corner = tuple((angle, "-1/sqrt(2)") for angle in ("0", "120", "240"))
+        # The crest of the edge lies along t1; an edge at the corner runs along t1.
+        along, across = np.array([[0, 0, 1], [1, 1, 0] / np.sqrt(2)])
+        down, diagonal = np.array([[-2, 1, 1] / np.sqrt(6), [1, 1, 1] / np.sqrt(3)])
+        return (
+            Site(
+                "edge",
+                Description("cone", rays=ridge),
+                place=half * np.array([1.0, 1.0, 0.0]),
+                frame=np.stack([along, np.cross(across, along), across]),
+            ),
+            Site(
+                "corner",
+                Description("cone", rays=corner),
+                place=half * np.ones(3),
+                frame=np.stack([down, np.cross(diagonal, down), diagonal]),
+            ),
+            Site(
+                "face",
+                Description("implicit", (f"x - {self.values['side'] / 2}",)),
+                (str(self.values["side"] / 2), "0", "0"),
+            ),
+        )
 
     def charts(self) -> Sequence[Chart]:
         half = self.number("side") / 2
