@@ -2,6 +2,12 @@
 
 from pdtheory.exact.algebraic import RealAlgebraic
 from pdtheory.exact.balls import Enclosure
+from pdtheory.exact.characteristic import (
+    CharacteristicPolynomial,
+    characteristic_polynomial,
+    is_irregular,
+)
+from pdtheory.exact.complexpairs import ComplexEigenPair, ComplexEigenPairs, complex_eigenpairs
 from pdtheory.exact.cones import Cone, cone_coefficient, radial_moment
 from pdtheory.exact.eigenpairs import EigenPair, EigenPairs, real_eigenpairs
 from pdtheory.exact.expression import parse_expression
@@ -13,6 +19,9 @@ from pdtheory.exact.series import differential_tensor, taylor_forms
 
 __all__ = [
     "BinaryForm",
+    "CharacteristicPolynomial",
+    "ComplexEigenPair",
+    "ComplexEigenPairs",
     "Cone",
     "ConePrediction",
     "EigenPair",
@@ -23,10 +32,13 @@ __all__ = [
     "SurfaceJet",
     "SymmetricTensor",
     "WavejetsRow",
+    "characteristic_polynomial",
+    "complex_eigenpairs",
     "cone_coefficient",
     "differential_tensor",
     "explicit_jet",
     "implicit_jet",
+    "is_irregular",
     "parametric_jet",
     "parse_expression",
     "predict",

@@ -57,6 +57,10 @@ class Enclosure(NamedTuple):
         """Return the interval moved by an integer."""
         return Enclosure(self.lower + by, self.upper + by)
 
+    def flip(self) -> Enclosure:
+        """Return the interval mirrored at zero."""
+        return Enclosure(-self.upper, -self.lower)
+
     def text(self, digits: int) -> str:
         """Return the interval with decimal ends of about this many digits, rounded outwards."""
         size = max(abs(self.lower), abs(self.upper))
@@ -76,6 +80,13 @@ def _decimal(scaled: int, places: int) -> str:
     return f"{sign}{text[:-places]}.{text[-places:]}" if places else f"{sign}{text}"
 
 
+class Rectangle(NamedTuple):
+    """A rectangle in the complex plane that is proved to hold one complex number."""
+
+    real: Enclosure
+    imaginary: Enclosure
+
+
 class Engine(Protocol):
     """What the exact side asks of a library of certified numbers."""
 
@@ -86,6 +97,9 @@ class Engine(Protocol):
 
     def real_roots(self, polynomial: Integers, bits: int) -> list[Enclosure]:
         """Return disjoint enclosures of all real roots of a squarefree polynomial, ascending."""
+
+    def complex_roots(self, polynomial: Integers, bits: int) -> list[Rectangle]:
+        """Return disjoint enclosures of the roots with positive imaginary part."""
 
     def precision(self, bits: int) -> AbstractContextManager[Any]:
         """Return a context in which intervals carry this many bits."""
@@ -128,6 +142,13 @@ class FlintEngine:
         with self.precision(bits):
             roots = [r.real for r, _ in p.complex_roots() if r.imag.is_zero()]
             return sorted(self.enclosure(r) for r in roots)
+
+    def complex_roots(self, polynomial: Integers, bits: int) -> list[Rectangle]:
+        """See :class:`Engine`."""
+        with self.precision(bits):
+            roots = [r for r, _ in self._flint.fmpz_poly(list(polynomial)).complex_roots()]
+            upper = [r for r in roots if not r.imag.is_zero() and r.imag > 0]
+            return sorted(Rectangle(self.enclosure(r.real), self.enclosure(r.imag)) for r in upper)
 
     def precision(self, bits: int) -> AbstractContextManager[Any]:
         """See :class:`Engine`."""
@@ -196,6 +217,20 @@ class SympyEngine:
             ]
         return roots
 
+    def complex_roots(self, polynomial: Integers, bits: int) -> list[Rectangle]:
+        """See :class:`Engine`."""
+        eps = self._sympy.Rational(1, 2**bits)
+        _, isolated = self._poly(polynomial).intervals(all=True, eps=eps)
+        corners = [[self._sympy.sympify(c).as_real_imag() for c in pair] for pair, _ in isolated]
+        found = [
+            Rectangle(
+                Enclosure(_fraction(a[0]), _fraction(b[0])),
+                Enclosure(_fraction(a[1]), _fraction(b[1])),
+            )
+            for a, b in corners
+        ]
+        return sorted(r for r in found if r.imaginary.lower >= 0)
+
     @contextmanager
     def precision(self, bits: int) -> Iterator[None]:
         """See :class:`Engine`."""
@@ -252,6 +287,12 @@ def real_roots(polynomial: Integers, bits: int) -> tuple[Enclosure, ...]:
     The number of enclosures is the number of real roots: that is proved, not counted numerically.
     """
     return tuple(engine().real_roots(polynomial, bits))
+
+
+@lru_cache(maxsize=512)
+def complex_roots(polynomial: Integers, bits: int) -> tuple[Rectangle, ...]:
+    """Return enclosures of the roots in the upper half plane of a squarefree polynomial."""
+    return tuple(engine().complex_roots(polynomial, bits))
 
 
 def horner(coefficients: Sequence[Any], at: Any) -> Any:

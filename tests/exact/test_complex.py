@@ -1,0 +1,158 @@
+"""Complex E-eigenpairs and the E-characteristic polynomial, each against the other and by hand."""
+
+import pytest
+import sympy as sp
+from hypothesis import assume, given, settings
+
+from pdtheory.errors import InputError
+from pdtheory.exact import (
+    BinaryForm,
+    WavejetsRow,
+    balls,
+    characteristic_polynomial,
+    complex_eigenpairs,
+    is_irregular,
+    real_eigenpairs,
+)
+from pdtheory.exact.characteristic import LAMBDA
+from pdtheory.testing.strategies import forms, forms_with_repeated_roots
+
+x, y, a, b = sp.symbols("x y a b")
+HAND = BinaryForm([1, 0, sp.Rational(3, 4), 0])
+HIDDEN = BinaryForm.from_expression(sp.expand(x * (x**2 + y**2) ** 2))
+
+
+def test_by_hand():
+    psi = characteristic_polynomial(HAND)
+    expected = (LAMBDA**2 - 1) * (4 * LAMBDA**2 + 1) ** 2
+    assert sp.expand(psi.polynomial.as_expr() - expected) == 0
+    pairs = complex_eigenpairs(HAND)
+    assert [(p.is_real, p.multiplicity) for p in pairs] == [(True, 1), (False, 1), (False, 1)]
+    assert pairs.isotropic_multiplicity == 0
+
+
+def test_irregular():
+    assert is_irregular(HIDDEN)
+    assert characteristic_polynomial(HIDDEN).is_irregular
+    assert complex_eigenpairs(HIDDEN).isotropic_multiplicity == 2
+    assert not is_irregular(HAND)
+
+
+def test_matrices_have_the_characteristic_polynomial_of_linear_algebra():
+    matrix = sp.Matrix([[2, 3], [3, -5]])
+    psi = characteristic_polynomial(BinaryForm([2, 6, -5])).polynomial.as_expr()
+    assert sp.expand(psi - matrix.charpoly(LAMBDA).as_expr()) == 0
+    symbolic = characteristic_polynomial(BinaryForm([a, 0, b])).polynomial.as_expr()
+    assert sp.expand(symbolic - (LAMBDA - a) * (LAMBDA - b)) == 0
+
+
+def test_algebraic_coefficients():
+    form = BinaryForm([1, 0, sp.sqrt(2), 0, 1])
+    psi = characteristic_polynomial(form).polynomial.as_expr()
+    for pair in real_eigenpairs(form):
+        assert abs(sp.N(psi.subs(LAMBDA, pair.eigenvalue), 30)) < 1e-25
+
+
+@settings(deadline=None, max_examples=40)
+@given(forms(min_order=2, max_order=8))
+def test_even_orders_by_the_other_resultant(form):
+    """Res(F/k, f - lambda (x^2+y^2)^(k/2)) = +- psi |f(1,i)|^2 for even k."""
+    k = form.order
+    assume(k % 2 == 0)
+    derivative = sp.expand((x * form.expression.diff(y) - y * form.expression.diff(x)) / k)
+    other = sp.expand(form.expression - LAMBDA * (x**2 + y**2) ** (k // 2))
+    # The resultant of two forms of degree k, by SymPy's determinant of Sylvester's matrix.
+    matrix = sp.zeros(2 * k, 2 * k)
+    for i in range(k):
+        for j in range(k + 1):
+            matrix[i, i + j] = derivative.coeff(x, k - j).coeff(y, j)
+            matrix[k + i, i + j] = other.coeff(x, k - j).coeff(y, j)
+    isotropic = sp.expand(form(1, sp.I) * form(1, -sp.I))
+    psi = characteristic_polynomial(form)
+    for value in (sp.Rational(1, 3), sp.Integer(-2)):
+        resultant = matrix.subs(LAMBDA, value).det(method="bareiss")
+        ours = psi.polynomial.as_expr().subs(LAMBDA, value) * isotropic
+        if ours == 0:
+            assert resultant == 0
+        elif value == sp.Rational(1, 3):
+            ratio = resultant / ours
+        else:
+            # psi is normalized: equal up to one constant.
+            assert sp.simplify(resultant / ours - ratio) == 0
+
+
+@settings(deadline=None, max_examples=50)
+@given(forms(min_order=2, max_order=9) | forms_with_repeated_roots(max_order=8))
+def test_eigenvalues_are_the_roots_of_psi(form):
+    pairs = complex_eigenpairs(form)
+    assume(pairs.status == "ok" and form.order > 1)
+    psi = characteristic_polynomial(form)
+    assert psi.is_irregular == (form.order > 2 and is_irregular(form))
+    assume(not psi.is_irregular)
+    poly = psi.polynomial
+    for pair in pairs:
+        value = pair.eigenvalue(60)
+        size = sum(abs(c) * abs(value) ** i for (i,), c in poly.terms())
+        assert abs(sp.N(poly.as_expr().subs(LAMBDA, value), 60)) <= size * sp.Float("1e-25")
+    degree = form.order if form.order % 2 == 0 else 2 * form.order
+    if pairs.isotropic_multiplicity == 0:
+        assert poly.degree() == degree
+    else:
+        assert poly.degree() < degree
+
+
+@settings(deadline=None, max_examples=60)
+@given(forms(min_order=1, max_order=16) | forms_with_repeated_roots(max_order=12))
+def test_the_count_theorem(form):
+    """With multiplicity the classes number n_max, the largest frequency present."""
+    pairs = complex_eigenpairs(form)
+    support = form.row.support
+    if pairs.status != "ok":
+        assert support == []
+        return
+    assert pairs.count == max(support)
+    assert (pairs.isotropic_multiplicity > 0) == (form.row[form.order] == 0)
+    assert pairs.count + 2 * pairs.isotropic_multiplicity == form.order
+    own_real = sum(p.multiplicity for p in pairs if p.is_real)
+    assert 2 * own_real == sum(p.multiplicity for p in real_eigenpairs(form))
+
+
+@settings(deadline=None, max_examples=25)
+@given(forms(min_order=2, max_order=8))
+def test_the_definition_holds(form):
+    for pair in complex_eigenpairs(form):
+        v, value = pair.vector(40), pair.eigenvalue(40)
+        assert abs(sp.N(v[0] ** 2 + v[1] ** 2 - 1, 40)) <= 1e-25 * (1 + abs(v[0]) ** 2)
+        scale = sum(abs(c) for c in form.coefficients) * (1 + abs(v[0]) + abs(v[1])) ** form.order
+        for part, component in zip(form.gradient(), v, strict=True):
+            assert abs(sp.N(part(*v) / form.order - value * component, 40)) <= 1e-25 * scale
+
+
+def test_without_flint(monkeypatch):
+    form = BinaryForm([1, 2, -1, 3, 1])
+    first = [(p.is_real, p.multiplicity, p.tangent_enclosure()) for p in complex_eigenpairs(form)]
+    engine = balls.SympyEngine()
+    for module in ("balls", "algebraic", "roots", "eigenpairs", "complexpairs"):
+        monkeypatch.setattr(f"pdtheory.exact.{module}.engine", lambda: engine)
+    balls.real_roots.cache_clear()
+    balls.complex_roots.cache_clear()
+    second = [(p.is_real, p.multiplicity, p.tangent_enclosure()) for p in complex_eigenpairs(form)]
+    balls.real_roots.cache_clear()
+    balls.complex_roots.cache_clear()
+    assert len(first) == len(second)
+    for p, q in zip(first, second, strict=True):
+        assert p[:2] == q[:2]
+        assert all(r.overlaps(s) for r, s in zip(p[2], q[2], strict=True))
+
+
+def test_statuses_and_bad_input():
+    assert complex_eigenpairs(BinaryForm([1, 0, 1])).status == "isotropic"
+    assert complex_eigenpairs(BinaryForm([0, 0])).status == "vanishing"
+    with pytest.raises(InputError, match="rational"):
+        complex_eigenpairs(BinaryForm([1, sp.sqrt(2), 1]))
+    with pytest.raises(InputError, match="order is 1"):
+        characteristic_polynomial(BinaryForm([1, 1]))
+    with pytest.raises(InputError, match="41"):
+        characteristic_polynomial(WavejetsRow(41, {1: 1}))
+    with pytest.raises(InputError, match="vertical"):
+        complex_eigenpairs(BinaryForm([1, 0, 2]))[1].tangent_enclosure()
