@@ -287,7 +287,7 @@ def run_chunk(
     int
         Points completed.
     """
-    scratch = make_scratch(max(settings.degree, 4))
+    scratch = make_scratch(max(settings.degree, 4), tables.full_disc)
     capacity = 1024
     cloud = np.empty((11, capacity))
     runs = np.empty((COLUMNS, 2), dtype=np.int64)

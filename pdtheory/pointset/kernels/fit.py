@@ -32,8 +32,12 @@ FRAME_TANGENT, FRAME_PRINCIPAL, FRAME_GIVEN = 0, 1, 2
 PREFIT_DEGREE = 4
 #: Neighbours that a fit must have for each coefficient.
 MARGIN = 1.25
-#: Smallest relative pivot of a usable fit; the degree is lowered until it is reached.
+#: Smallest relative pivot that leaves correct digits; the degree is lowered until it is reached.
 WORST_PIVOT = 1e-9
+#: The pivots of a degree as a fraction of those of a full disc: below the first the points do not
+#: tell its monomials apart (scan lines, a lattice) and the degree is lowered; below the second the
+#: fit is flagged. Half a disc has 2e-3 at degree 10, a quarter 2e-2.
+DEFICIENT, DOUBTFUL = 1e-4, 1e-3
 #: Below this pivot the solution is refined against the samples.
 REFINE_PIVOT = 1e-4
 #: Tilts with the full fit.
@@ -207,7 +211,7 @@ def regress(cloud: Array, weights: Array, n: int, degree: int, s: Scratch) -> tu
         low = 1.0
         for i in range(degree_start(degree, d), degree_start(degree, d) + d + 1):
             low = min(low, s.pivots[i])
-        if low < WORST_PIVOT:
+        if low < WORST_PIVOT or low < DEFICIENT * s.full_disc[d]:
             break
         worst = min(worst, low)
         reached = d
@@ -217,6 +221,17 @@ def regress(cloud: Array, weights: Array, n: int, degree: int, s: Scratch) -> tu
     for i in range(first):
         s.c[i] = 0.0
     return reached, worst
+
+
+@inner
+def doubtful(degree: int, reached: int, s: Scratch) -> bool:
+    """Whether some degree up to the one reached has far smaller pivots than on a full disc."""
+    for d in range(reached + 1):
+        start = degree_start(degree, d)
+        for i in range(start, start + d + 1):
+            if s.pivots[i] < DOUBTFUL * s.full_disc[d]:
+                return True
+    return False
 
 
 @inner
@@ -437,7 +452,7 @@ def fit_point(cloud: Array, n: int, reference: Array, settings: Settings, s: Scr
         low = min(degree, PREFIT_DEGREE)
         cx, cy, weight = project(cloud, n, s.frame, settings.planar)
         reached, pivot = regress(cloud, cloud[4], n, low, s)
-        if reached >= 1 and pivot > 1e-6:
+        if reached >= 1:
             shift(s.c, low, cx, cy, s.table)
             size = coefficient_count(low)
             a = s.c[size - 3]
@@ -480,6 +495,8 @@ def fit_point(cloud: Array, n: int, reference: Array, settings: Settings, s: Scr
         status |= _REFINED
     if reached < degree:
         status |= _LOWERED | _ILL
+    if doubtful(degree, reached, s):
+        status |= _ILL
     if np.hypot(cx, cy) > ONE_SIDED:
         status |= _ONE_SIDED
     return Fit(status, reached, degree, first, cx, cy, residual, pivot, weight, inside)

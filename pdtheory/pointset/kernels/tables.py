@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from math import comb, factorial
+from math import comb, factorial, gamma
 from typing import Any, NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 from numba import types
 from numba.experimental import structref
 
 from pdtheory.conventions import frequencies
-from pdtheory.pointset.kernels.jit import inner
+from pdtheory.pointset.kernels.jit import Array, inner
 from pdtheory.pointset.kernels.moments import BLOCK, table_rows
 from pdtheory.pointset.kernels.regression import coefficient_count
 from pdtheory.pointset.kernels.roots import DEPTH, SAMPLES
@@ -28,6 +29,8 @@ class Tables(NamedTuple):
         Binomial coefficients.
     factorial : (K + 1,) float64
         k!.
+    full_disc : (K + 1,) float64
+        Smallest relative pivot of each degree for points that fill the disc evenly.
     cosines, sines : (K + 1, SAMPLES + 1) float64
         cos and sin of n theta_j, theta_j = j pi / SAMPLES.
     """
@@ -36,6 +39,7 @@ class Tables(NamedTuple):
     imaginary: Any
     binomial: Any
     factorial: Any
+    full_disc: Any
     cosines: Any
     sines: Any
 
@@ -73,12 +77,35 @@ class Scratch(structref.StructRefProxy):
     stack: Any
     angle: Any
     kind: Any
+    full_disc: Any
     spreads: Any
     covariance: Any
     found: Any
 
 
 structref.define_proxy(Scratch, _ScratchType, list(Scratch.__annotations__))
+
+
+def _full_disc_pivots(degree: int) -> npt.NDArray[np.float64]:
+    """Return the smallest relative pivot of each degree for the continuous weighted disc."""
+    nodes, weights = np.polynomial.legendre.leggauss(64)
+    r = (nodes + 1) / 2
+    radial = [
+        float(np.sum(weights / 2 * r ** (d + 1) * np.exp(-4.5 * r**2)))
+        for d in range(2 * degree + 1)
+    ]
+    powers = [(d - b, b) for d in range(degree + 1) for b in range(d + 1)]
+
+    def moment(a: int, b: int) -> float:
+        if a % 2 or b % 2:
+            return 0.0
+        return radial[a + b] * 2 * gamma((a + 1) / 2) * gamma((b + 1) / 2) / gamma((a + b) / 2 + 1)
+
+    gram = np.array([[moment(a + c, b + d) for c, d in powers] for a, b in powers])
+    pivots = np.diag(np.linalg.cholesky(gram)) ** 2 / np.diag(gram)
+    return np.array(
+        [min(pivots[i] for i, (a, b) in enumerate(powers) if a + b == d) for d in range(degree + 1)]
+    )
 
 
 @lru_cache(maxsize=16)
@@ -104,11 +131,19 @@ def make_tables(degree: int) -> Tables:
     binomial = np.array([[comb(i, j) for j in range(degree + 1)] for i in range(degree + 1)], float)
     factorials = np.array([factorial(k) for k in range(degree + 1)], float)
     angles = np.outer(np.arange(degree + 1), np.arange(SAMPLES + 1) * (np.pi / SAMPLES))
-    return Tables(real, imaginary, binomial, factorials, np.cos(angles), np.sin(angles))
+    return Tables(
+        real,
+        imaginary,
+        binomial,
+        factorials,
+        _full_disc_pivots(degree),
+        np.cos(angles),
+        np.sin(angles),
+    )
 
 
 @inner
-def make_scratch(degree: int) -> Scratch:
+def make_scratch(degree: int, full_disc: Array) -> Scratch:
     """Allocate working memory for degree K = `degree` (at least 4)."""
     n = coefficient_count(degree)
     rows = table_rows(degree)
@@ -138,6 +173,7 @@ def make_scratch(degree: int) -> Scratch:
         np.empty((DEPTH + 3, 6)),
         np.empty(degree + 1),
         np.empty(degree + 1, dtype=np.int8),
+        full_disc,
         np.empty((max(degree + 1, 4), n)),
         np.empty((degree + 1, degree + 1)),
         np.empty((2 * degree, 5)),
