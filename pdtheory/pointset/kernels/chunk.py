@@ -15,6 +15,7 @@ from pdtheory.pointset.kernels.moments import sum_moments
 from pdtheory.pointset.kernels.regression import (
     coefficient_count,
     degree_start,
+    factor,
     fill_gram,
 )
 from pdtheory.pointset.kernels.roots import critical_angles, evaluate, value
@@ -215,11 +216,36 @@ def _store(found: Array, count: int, row: int, unit: float, frame: Array, out: O
 
 
 @inner
+def _noise_of_l1(cloud: Array, n: int, used: int) -> float:
+    """Return the scale that stands for the noise in the covariance of an l1 fit.
+
+    That is 1 / (2 f(0)) with the density f of the noise, taken to be normal about zero, where its
+    standard deviation follows from the median of the absolute residuals. An l1 fit passes through
+    as many points as it has coefficients, so that many residuals are left out.
+    """
+    sizes = cloud[9]
+    inside = 0
+    for i in range(n):
+        if cloud[4, i] > 0.0:
+            sizes[inside] = abs(cloud[8, i])
+            inside += 1
+    if inside <= used:
+        return np.inf
+    ordered = np.sort(sizes[:inside])
+    return np.sqrt(np.pi / 2.0) * ordered[used + (inside - used) // 2] / 0.6744897501960817
+
+
+@inner
 def _prepare_uncertainty(cloud: Array, n: int, fit: Fit, settings: Settings, s: Scratch) -> float:
     """Set up ``s.S`` for the covariances; returns the standard deviation of the heights."""
     size = coefficient_count(fit.top)
-    weights = cloud[10] if settings.robust else cloud[4]
+    weights = cloud[4]
     squared = cloud[9]
+    if settings.robust:
+        # The covariance of an l1 fit holds the Gram matrix of the weights before reweighting.
+        sum_moments(cloud[5], cloud[6], weights, n, 2 * fit.top, s.X, s.V, s.moments)
+        fill_gram(s.moments, fit.top, s.offsets, s.G)
+        factor(s.G, size, s.diagonal, s.pivots)
     total = 0.0
     squares = 0.0
     for i in range(n):
@@ -228,8 +254,10 @@ def _prepare_uncertainty(cloud: Array, n: int, fit: Fit, settings: Settings, s: 
         squares += weights[i] * cloud[8, i] * cloud[8, i]
     sum_moments(cloud[5], cloud[6], squared, n, 2 * fit.top, s.X, s.V, s.moments)
     fill_gram(s.moments, fit.top, s.offsets, s.S)
-    # The factor of S overwrites the diagonal of G, which the rounding bound still needs.
+    # The diagonal of G stays for the rounding bound.
     used = spread(s.G, s.S, fit.first, size, s.step, s.spare)
+    if settings.robust:
+        return _noise_of_l1(cloud, n, size - fit.first)
     left = total - used
     return np.sqrt(squares / left) if left > 0.0 else np.inf
 
