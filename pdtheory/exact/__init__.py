@@ -16,6 +16,7 @@ from pdtheory.exact.jets import SurfaceJet, explicit_jet, implicit_jet, parametr
 from pdtheory.exact.prediction import ConePrediction, predict
 from pdtheory.exact.report import report
 from pdtheory.exact.series import differential_tensor, taylor_forms
+from pdtheory.exact.strata import count_bounds, count_maxima, parametric_discriminant
 
 __all__ = [
     "BinaryForm",
@@ -35,10 +36,13 @@ __all__ = [
     "characteristic_polynomial",
     "complex_eigenpairs",
     "cone_coefficient",
+    "count_bounds",
+    "count_maxima",
     "differential_tensor",
     "explicit_jet",
     "implicit_jet",
     "is_irregular",
+    "parametric_discriminant",
     "parametric_jet",
     "parse_expression",
     "predict",

@@ -1,8 +1,8 @@
 """The E-characteristic polynomial of a symmetric tensor of dimension 2, by Qi's definition.
 
 For even k it is the resultant of the two forms T v^(k-1) - lambda (v.v)^((k-2)/2) v. For odd k it
-is the resultant of T v^(k-1) - lambda b^(k-2) v and v.v - b^2 in the three unknowns v and b; the conic
-is parametrized by v = (s^2 - t^2, 2 s t), b = s^2 + t^2, which leaves two forms again. The
+is that of T v^(k-1) - lambda b^(k-2) v and v.v - b^2 in the three unknowns v and b; the conic is
+parametrized by v = (s^2 - t^2, 2 s t), b = s^2 + t^2, which leaves two forms again. The
 resultant is a determinant that is evaluated at integers and interpolated.
 """
 
@@ -169,6 +169,28 @@ def _sylvester(a: Sequence[Any], b: Sequence[Any], domain: Any) -> Any:
     ]
     matrix = DomainMatrix(rows, (2 * degree, 2 * degree), domain)
     return (matrix.to_dense() if domain.is_QQ else matrix).det()
+
+
+def sylvester_resultant(first: Face, second: Face) -> Any:
+    """Return the resultant of two forms of equal order as a SymPy expression.
+
+    Parameters
+    ----------
+    first, second
+        Two forms of the same order, with rational, algebraic or symbolic coefficients.
+
+    Raises
+    ------
+    InputError
+        If the orders differ or are 0.
+    """
+    a, b = first.form, second.form
+    if a.order != b.order or a.order < 1:
+        raise InputError(f"A resultant needs two forms of one order, not {a.order} and {b.order}.")
+    constants = [*a.coefficients, *b.coefficients]
+    domain, elements = sp.construct_domain(constants, extension=True, field=True)
+    middle = a.order + 1
+    return sp.expand(domain.to_sympy(_sylvester(elements[:middle], elements[middle:], domain)))
 
 
 def _interpolate(abscissae: Sequence[int], values: Sequence[Any], domain: Any) -> list[Any]:

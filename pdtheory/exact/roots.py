@@ -72,7 +72,7 @@ class Coefficients:
         return None
 
     @cached_property
-    def _field(self) -> tuple[Any, list[Any]]:
+    def field_elements(self) -> tuple[Any, list[Any]]:
         """The field Q(a) and the numbers over the factor as elements of it."""
         for original, e in zip(self.expressions, self.algebraic, strict=True):
             if e.is_real is False:
@@ -89,7 +89,7 @@ class Coefficients:
     @cached_property
     def generator(self) -> RealAlgebraic:
         """The generator a of the field."""
-        field, _ = self._field
+        field, _ = self.field_elements
         if field.is_QQ:
             return RealAlgebraic.rational(0)
         minimal = primitive([Fraction(int(c.p), int(c.q)) for c in _rationals(field.mod.to_list())])
@@ -106,7 +106,7 @@ class Coefficients:
         """Each number over the factor as a polynomial in the generator, constant term first."""
         if self.rationals is not None:
             return [[r] for r in self.rationals]
-        field, elements = self._field
+        field, elements = self.field_elements
         if field.is_QQ:
             return [[Fraction(int(e.numerator), int(e.denominator))] for e in elements]
         return [
@@ -173,7 +173,7 @@ def form_roots(coefficients: Sequence[Any]) -> list[Root]:
 
 
 def _algebraic_roots(numbers: Coefficients) -> tuple[int, list[tuple[RealAlgebraic, int]]]:
-    field, elements = numbers._field
+    field, elements = numbers.field_elements
     poly = sp.Poly.from_list(elements[::-1], _T, domain=field)
     if field.is_QQ:
         poly = poly.set_domain(sp.QQ)
