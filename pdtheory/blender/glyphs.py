@@ -20,6 +20,9 @@ from pdtheory.pointset.field import DirectionField
 
 MODIFIER_NAME: Final = "Principal directions"
 
+#: Property of a stroke object: the orders it holds.
+ORDERS_KEY: Final = "pdtheory_orders"
+
 #: A stroke reaches this part of the way to the next spot.
 _REACH = 0.46
 
@@ -153,15 +156,22 @@ def add_glyphs(
     collection.objects.link(glyphs)
     modifier = glyphs.modifiers.new(MODIFIER_NAME, "NODES")
     modifier.node_group = needle_group()
-    present = set(np.unique(data.attributes["order"]).tolist()) if len(data) else set()
     for order in ORDERS:
         compat.set_input(modifier, f"Material {order}", order_material(order))
-        compat.set_input(modifier, f"Order {order}", order in present)
+    offer_orders(glyphs, data)
     compat.set_input(modifier, "Style", "Needles")
     spacing = data.spots.spacing_for(strokes)
     compat.set_input(modifier, "Spacing", spacing)
     compat.set_input(modifier, "Length", _REACH * spacing)
     return glyphs
+
+
+def offer_orders(glyphs: Any, data: GlyphData) -> None:
+    """Switch on the orders that an object holds, and off those it does not."""
+    present = set(np.unique(data.attributes["order"]).tolist()) if len(data) else set()
+    for order in ORDERS:
+        compat.set_input(glyphs.modifiers[0], f"Order {order}", order in present)
+    glyphs[ORDERS_KEY] = sorted(present)
 
 
 def fill_mesh(mesh: Any, data: GlyphData, origin: FloatArray | None = None) -> None:

@@ -37,7 +37,7 @@ def order_material(order: int) -> Any:
     material = bpy.data.materials.get(name)
     if material is not None and material.library is None:
         return material
-    colour = (*map(_linear, ORDER_COLOURS[order]), 1.0)
+    colour = (*map(linear, ORDER_COLOURS[order]), 1.0)
     material = bpy.data.materials.new(name)
     tree = compat.enable_nodes(material)
     surface = next(node for node in tree.nodes if node.type == "BSDF_PRINCIPLED")
@@ -48,7 +48,7 @@ def order_material(order: int) -> Any:
     return material
 
 
-def _linear(component: float) -> float:
+def linear(component: float) -> float:
     """Return the linear value of one sRGB component."""
     if component <= 0.04045:
         return component / 12.92

@@ -37,14 +37,34 @@ def surface_material() -> Any:
 
 
 def add_surface(cloud: PointCloud, *, collection: Any, origin: FloatArray | None = None) -> Any:
-    """Add the triangles of a cloud as a mesh object.
+    """Add the triangles of a cloud as a mesh object in the grey of the pictures.
+
+    Parameters
+    ----------
+    cloud
+        Points with faces.
+    collection
+        `bpy` collection to put the object into.
+    origin : (3,) float64, optional
+        Subtracted from the points before they become single precision.
+
+    Raises
+    ------
+    InputError
+        If there are no faces to draw.
+    """
+    mesh = surface_mesh(cloud, origin)
+    mesh.materials.append(surface_material())
+    return _link(mesh, collection)
+
+
+def surface_mesh(cloud: PointCloud, origin: FloatArray | None = None) -> Any:
+    """Return the triangles of a cloud as a mesh, smooth but for its edges.
 
     Parameters
     ----------
     cloud
         Points with faces. Faces with a corner that is not finite are left out.
-    collection
-        `bpy` collection to put the object into.
     origin : (3,) float64, optional
         Subtracted from the points before they become single precision.
 
@@ -62,7 +82,7 @@ def add_surface(cloud: PointCloud, *, collection: Any, origin: FloatArray | None
     points = cloud.points if origin is None else cloud.points - origin
     mesh = _triangles(cloud.name, np.where(finite[:, None], points, 0.0), faces)
     mesh.set_sharp_from_angle(angle=float(_SMOOTH_ANGLE))
-    return _link(mesh, collection)
+    return mesh
 
 
 def add_points(
@@ -113,6 +133,7 @@ def add_points(
     fan = np.array([(0, i, i + 1) for i in range(1, _DISC_CORNERS - 1)])
     faces = (np.arange(len(where)) * _DISC_CORNERS)[:, None, None] + fan[None]
     mesh = _triangles(name, corners.reshape(-1, 3), faces.reshape(-1, 3))
+    mesh.materials.append(surface_material())
     return _link(mesh, collection)
 
 
@@ -145,7 +166,6 @@ def _flat32(values: FloatArray) -> npt.NDArray[np.float32]:
 
 
 def _link(mesh: Any, collection: Any) -> Any:
-    mesh.materials.append(surface_material())
     thing = bpy.data.objects.new(mesh.name, mesh)
     collection.objects.link(thing)
     return thing

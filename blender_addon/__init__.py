@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Principal directions of arbitrary order on Blender objects: the extension."""
+
+from . import (
+    add_mesh,
+    compute,
+    exact_directions,
+    exchange,
+    inspect_point,
+    jobs,
+    panels,
+    preferences,
+    presets,
+    properties,
+    shading,
+    translations,
+)
+
+#: In the order of registration; taken back in the opposite order.
+_PARTS = (
+    preferences,
+    properties,
+    presets,
+    jobs,
+    compute,
+    shading,
+    inspect_point,
+    exchange,
+    add_mesh,
+    exact_directions,
+    panels,
+    translations,
+)
+
+
+def register() -> None:
+    """Register all classes, properties, menus and handlers."""
+    for part in _PARTS:
+        part.register()
+
+
+def unregister() -> None:
+    """Take back everything that :func:`register` did."""
+    for part in reversed(_PARTS):
+        part.unregister()

@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Direction fields to and from files."""
+
+from pathlib import Path
+
+import bpy
+from bpy.props import StringProperty
+from bpy_extras.io_utils import ExportHelper, ImportHelper
+
+from pdtheory.blender.result import describe, field_of, show_result, source_for, strokes_of
+from pdtheory.errors import PdtheoryError
+
+from .jobs import redraw, surface_object
+
+
+class ExportField(ExportHelper, bpy.types.Operator):
+    """Write the directions of the active object: NPZ (complete), PLY or CSV (for other programs)"""
+
+    bl_idname = "principal_directions.export_field"
+    bl_label = "Export Directions"
+
+    filename_ext = ".npz"
+    check_extension = None
+    filter_glob: StringProperty(default="*.npz;*.ply;*.csv;*.vtp", options={"HIDDEN"})
+
+    @classmethod
+    def poll(cls, context):
+        return strokes_of(surface_object(context)) is not None
+
+    def execute(self, context):
+        from pdtheory.io import write_field
+
+        try:
+            write_field(field_of(strokes_of(surface_object(context))), Path(self.filepath))
+        except PdtheoryError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        self.report({"INFO"}, f"Wrote {self.filepath}")
+        return {"FINISHED"}
+
+
+class ImportField(ImportHelper, bpy.types.Operator):
+    """Show a direction field (NPZ) that was computed on the same object elsewhere"""
+
+    bl_idname = "principal_directions.import_field"
+    bl_label = "Import Directions"
+    bl_options = {"UNDO"}  # noqa: RUF012
+
+    filename_ext = ".npz"
+    filter_glob: StringProperty(default="*.npz", options={"HIDDEN"})
+
+    @classmethod
+    def poll(cls, context):
+        return surface_object(context) is not None
+
+    def execute(self, context):
+        from pdtheory.io import read_field
+
+        thing = surface_object(context)
+        try:
+            field = read_field(Path(self.filepath))
+            show_result(thing, source_for(thing, field), field)
+        except PdtheoryError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        thing.principal_directions.summary = "\n".join(describe(field))
+        thing.principal_directions.comparison = ""
+        redraw()
+        return {"FINISHED"}
+
+
+_CLASSES = (ExportField, ImportField)
+
+
+def register():
+    for each in _CLASSES:
+        bpy.utils.register_class(each)
+
+
+def unregister():
+    for each in reversed(_CLASSES):
+        bpy.utils.unregister_class(each)

@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One point: its directions as a table, its Wavejets row, its neighbourhood as a ball."""
+
+import bmesh
+import bpy
+import numpy as np
+
+from pdtheory.blender.result import field_of, point_of_vertex, strokes_of
+from pdtheory.conventions import Kind, Status
+from pdtheory.errors import PdtheoryError
+
+from .jobs import surface_object
+
+_BALL_KEY = "pdtheory_ball"
+
+
+def active_vertex(thing):
+    """Return the active vertex in edit mode, else the one that the panel names."""
+    if thing.mode == "EDIT" and thing.type == "MESH":
+        active = bmesh.from_edit_mesh(thing.data).select_history.active
+        if isinstance(active, bmesh.types.BMVert):
+            return active.index
+    return thing.principal_directions.point
+
+
+def active_point(thing):
+    """Return (field, index of the point) of the active vertex, or None."""
+    strokes = strokes_of(thing)
+    if strokes is None:
+        return None
+    field = field_of(strokes)
+    point = point_of_vertex(strokes, active_vertex(thing))
+    return None if point is None else (field, point)
+
+
+def table(field, point):
+    """Return the rows of the table: order, kind, angle, eigenvalue and their uncertainties."""
+    rows = []
+    for order in field.orders:
+        directions = field[order]
+        if directions.isotropic[point]:
+            rows.append((str(order), "all", "isotropic", ""))
+        part = directions.at(point)
+        for i in range(part.start, part.stop):
+            rows.append(
+                (
+                    str(order),
+                    Kind(int(directions.kind[i])).label,
+                    f"{np.degrees(directions.angle[i]):.1f}° ± "
+                    f"{np.degrees(directions.angle_std[i]):.1f}°",
+                    f"{directions.eigenvalue[i]:.4g} ± {directions.eigenvalue_std[i]:.2g}",
+                )
+            )
+    return rows
+
+
+def wavejets_row(field, point):
+    """Return the Wavejets coefficients of a point as text, a line for each order and frequency."""
+    lines = [f"# radius {field.radius[point]:.9g}, status {Status(int(field.status[point]))!r}"]
+    for k, n, value in zip(field.phi_order, field.phi_frequency, field.phi[point], strict=True):
+        lines.append(f"phi_{k}_{n} = {value.real:.12g} {value.imag:+.12g}i")
+    return "\n".join(lines)
+
+
+class CopyRow(bpy.types.Operator):
+    """Copy the Wavejets coefficients of the active vertex to the clipboard"""
+
+    bl_idname = "principal_directions.copy_row"
+    bl_label = "Copy Wavejets Row"
+
+    @classmethod
+    def poll(cls, context):
+        return strokes_of(surface_object(context)) is not None
+
+    def execute(self, context):
+        try:
+            found = active_point(surface_object(context))
+        except PdtheoryError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        if found is None:
+            self.report({"ERROR"}, "the active vertex has no result; choose another")
+            return {"CANCELLED"}
+        context.window_manager.clipboard = wavejets_row(*found)
+        return {"FINISHED"}
+
+
+class ShowBall(bpy.types.Operator):
+    """Show the neighbourhood of the active vertex as a ball, or hide it again"""
+
+    bl_idname = "principal_directions.show_ball"
+    bl_label = "Show Neighbourhood"
+    bl_options = {"UNDO"}  # noqa: RUF012
+
+    @classmethod
+    def poll(cls, context):
+        return strokes_of(surface_object(context)) is not None
+
+    def execute(self, context):
+        thing = surface_object(context)
+        strokes = strokes_of(thing)
+        for child in [child for child in strokes.children if _BALL_KEY in child]:
+            bpy.data.objects.remove(child)
+            return {"FINISHED"}
+        try:
+            found = active_point(thing)
+        except PdtheoryError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        if found is None:
+            self.report({"ERROR"}, "the active vertex has no result; choose another")
+            return {"CANCELLED"}
+        field, point = found
+        ball = bpy.data.objects.new(f"{thing.name} neighbourhood", None)
+        ball[_BALL_KEY] = True
+        ball.empty_display_type = "SPHERE"
+        ball.empty_display_size = float(field.radius[point])
+        ball.parent = strokes
+        ball.location = field.points[point].tolist()
+        strokes.users_collection[0].objects.link(ball)
+        return {"FINISHED"}
+
+
+_CLASSES = (CopyRow, ShowBall)
+
+
+def register():
+    for each in _CLASSES:
+        bpy.utils.register_class(each)
+
+
+def unregister():
+    for each in reversed(_CLASSES):
+        bpy.utils.unregister_class(each)

@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The tab "Directions" in the sidebar of the 3D view."""
+
+import bpy
+
+from pdtheory.blender import compat
+from pdtheory.blender.glyphs import MODIFIER_NAME, ORDERS_KEY
+from pdtheory.blender.result import strokes_of
+from pdtheory.errors import PdtheoryError
+
+from .inspect_point import active_point, active_vertex, table
+from .jobs import surface_object
+
+_LOOK = ("Style", "Length", "By Strength", "Width", "Taper", "Lift", "Follow Surface")
+_CHOICE = (
+    "Spacing",
+    "One Order Per Point",
+    "Maxima",
+    "Minima",
+    "Inflections",
+    "Least Strength",
+    "Largest Uncertainty",
+)
+
+
+class _DirectionsPanel:
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Directions"
+
+
+class DIRECTIONS_PT_compute(_DirectionsPanel, bpy.types.Panel):  # noqa: N801
+    """What to compute on, how, and the button that does it."""
+
+    bl_label = "Principal Directions"
+
+    def draw_header_preset(self, context):
+        self.layout.menu("DIRECTIONS_MT_presets", text="", icon="PRESET")
+
+    def draw(self, context):
+        layout = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        settings = context.scene.principal_directions
+        thing = surface_object(context)
+        layout.label(text=thing.name if thing else "Select an object", icon="OBJECT_DATA")
+
+        column = layout.column()
+        column.row().prop(settings, "source", expand=True)
+        if settings.source == "SAMPLES":
+            column.prop(settings, "samples")
+            column.prop(settings, "seed")
+        column.prop(settings, "evaluated")
+
+        column = layout.column()
+        column.row().prop(settings, "neighbourhood", expand=True)
+        if settings.neighbourhood == "RADIUS":
+            row = column.row(align=True)
+            row.prop(settings, "radius")
+            row.operator("principal_directions.propose_radius", text="", icon="EYEDROPPER")
+        else:
+            column.prop(settings, "neighbours")
+        column.prop(settings, "degree")
+        column.row().prop(settings, "orders", expand=True)
+        column.prop(settings, "norm")
+
+        progress = context.window_manager.principal_directions
+        if progress.running:
+            row = layout.row(align=True)
+            row.progress(factor=progress.fraction, text=progress.text)
+            row.operator("principal_directions.cancel", text="", icon="X")
+        else:
+            row = layout.row()
+            row.scale_y = 1.5
+            row.operator("principal_directions.compute", icon="ORIENTATION_NORMAL")
+
+
+class DIRECTIONS_PT_result(_DirectionsPanel, bpy.types.Panel):  # noqa: N801
+    """What came out, in words."""
+
+    bl_label = "Result"
+
+    @classmethod
+    def poll(cls, context):
+        thing = surface_object(context)
+        return thing is not None and strokes_of(thing) is not None
+
+    def draw(self, context):
+        layout = self.layout
+        thing = surface_object(context)
+        column = layout.column(align=True)
+        for line in thing.principal_directions.summary.splitlines():
+            column.label(text=line, translate=False)
+        if thing.principal_directions.surface:
+            layout.operator("principal_directions.show_exact", icon="CHECKMARK")
+            column = layout.column(align=True)
+            for line in thing.principal_directions.comparison.splitlines():
+                column.label(text=line, translate=False)
+        row = layout.row(align=True)
+        row.operator("principal_directions.export_field", text="Export", icon="EXPORT")
+        row.operator("principal_directions.import_field", text="Import", icon="IMPORT")
+        layout.operator_menu_enum(
+            "principal_directions.show_strength", "order", icon="SHADING_RENDERED"
+        )
+
+
+class DIRECTIONS_PT_drawing(_DirectionsPanel, bpy.types.Panel):  # noqa: N801
+    """How the strokes look: everything acts at once."""
+
+    bl_label = "Drawing"
+
+    @classmethod
+    def poll(cls, context):
+        return _modifier(context) is not None
+
+    def draw(self, context):
+        layout = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        modifier = _modifier(context)
+        inputs = compat.interface_inputs(modifier.node_group)
+        for names in (_LOOK, _CHOICE):
+            column = layout.column()
+            for name in names:
+                _prop(column, modifier, inputs, name)
+        column = layout.column(align=True)
+        for order in modifier.id_data.get(ORDERS_KEY, ()):
+            material = compat.get_input(modifier, f"Material {order}")
+            row = column.row(align=True)
+            _prop(row, modifier, inputs, f"Order {order}")
+            if material is not None:
+                row.prop(material, "principal_directions_colour", text="")
+
+
+class DIRECTIONS_PT_point(_DirectionsPanel, bpy.types.Panel):  # noqa: N801
+    """The directions of one vertex as a table."""
+
+    bl_label = "Selected Point"
+    bl_options = {"DEFAULT_CLOSED"}  # noqa: RUF012
+
+    @classmethod
+    def poll(cls, context):
+        thing = surface_object(context)
+        return thing is not None and strokes_of(thing) is not None
+
+    def draw(self, context):
+        layout = self.layout
+        thing = surface_object(context)
+        if thing.mode == "EDIT":
+            layout.label(text=f"Active vertex {active_vertex(thing)}", translate=False)
+        else:
+            layout.prop(thing.principal_directions, "point")
+        try:
+            found = active_point(thing)
+        except PdtheoryError as error:
+            layout.label(text=str(error), translate=False)
+            return
+        if found is None:
+            layout.label(text="No result at this vertex")
+            return
+        grid = layout.grid_flow(row_major=True, columns=4, align=True)
+        for heading in ("Order", "Kind", "Angle", "Eigenvalue"):
+            grid.label(text=heading)
+        for row in table(*found):
+            for text in row:
+                grid.label(text=text, translate=False)
+        row = layout.row(align=True)
+        row.operator("principal_directions.copy_row", icon="COPYDOWN")
+        row.operator("principal_directions.show_ball", text="", icon="MESH_UVSPHERE")
+
+
+def _modifier(context):
+    strokes = strokes_of(context.active_object)
+    return None if strokes is None else strokes.modifiers.get(MODIFIER_NAME)
+
+
+def _prop(layout, modifier, inputs, name):
+    owner, path = compat.input_owner(modifier, inputs[name].identifier)
+    layout.prop(owner, path, text=name)
+
+
+_CLASSES = (
+    DIRECTIONS_PT_compute,
+    DIRECTIONS_PT_result,
+    DIRECTIONS_PT_drawing,
+    DIRECTIONS_PT_point,
+)
+
+
+def register():
+    for each in _CLASSES:
+        bpy.utils.register_class(each)
+
+
+def unregister():
+    for each in reversed(_CLASSES):
+        bpy.utils.unregister_class(each)
