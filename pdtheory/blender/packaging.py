@@ -1,0 +1,315 @@
+"""The extension as zips that Blender installs, with all it needs as wheels."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import zipfile
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Final
+
+from pdtheory.errors import ComputationError, InputError, MissingDependencyError
+
+#: Wheel tags by Blender's name of a platform, best first.
+PLATFORMS: Final[dict[str, tuple[str, ...]]] = {
+    "linux-x64": ("manylinux_2_28_x86_64", "manylinux_2_17_x86_64", "manylinux2014_x86_64"),
+    "windows-x64": ("win_amd64",),
+    "macos-arm64": ("macosx_12_0_arm64", "macosx_11_0_arm64"),
+}
+
+#: What is packed beside pdtheory itself; NumPy comes with Blender.
+_LIBRARIES: Final = ("scipy", "numba", "sympy", "mpmath<1.4", "python-flint", "trimesh")
+
+_NUMPY: Final = "numpy"
+
+
+@dataclass(frozen=True)
+class Runtime:
+    """A Python that some Blenders carry.
+
+    Attributes
+    ----------
+    python : str
+        Its version, such as ``3.11``.
+    numpy : str
+        Requirement that the NumPy of those Blenders fulfils; libraries are chosen to go with it.
+    blender_min, blender_max : str or None
+        The Blenders that carry it, the second exclusive.
+    """
+
+    python: str
+    numpy: str
+    blender_min: str
+    blender_max: str | None
+
+    @property
+    def tag(self) -> str:
+        """The tag of its wheels."""
+        return "cp" + self.python.replace(".", "")
+
+
+#: Blender 4.2 to 5.0 has Python 3.11 and NumPy 1.24 or 1.26, later ones have Python 3.13.
+RUNTIMES: Final = (
+    Runtime("3.11", "numpy==1.24.*", "4.2.0", "5.1.0"),
+    Runtime("3.13", "numpy==2.2.*", "5.1.0", None),
+)
+
+
+def runtime_for(python: str) -> Runtime:
+    """Return the runtime of a Python version; some distributions carry other ones than these.
+
+    Raises
+    ------
+    InputError
+        If it is not a version from 3.11 on.
+    """
+    for runtime in RUNTIMES:
+        if runtime.python == python:
+            return runtime
+    major, _, minor = python.partition(".")
+    if major != "3" or not minor.isdecimal() or int(minor) < 11:
+        raise InputError(f"the Python {python!r} is not available; give 3.11 or later, as in 3.13.")
+    return Runtime(python, "numpy>=2.2", "4.2.0", None)
+
+
+def source_root() -> Path:
+    """Return the checkout with the extension's folder.
+
+    Raises
+    ------
+    InputError
+        If this pdtheory does not run from one.
+    """
+    import pdtheory
+
+    root = Path(pdtheory.__file__).parents[1]
+    if not (root / "blender_addon" / "blender_manifest.toml").is_file():
+        raise InputError(
+            "the extension is built from the source of pdtheory, and this installation is none; "
+            "clone the repository and run the command there."
+        )
+    return root
+
+
+def build_zip(runtime: Runtime, platform: str, folder: Path) -> Path:
+    """Build and validate one zip.
+
+    Parameters
+    ----------
+    runtime
+        The Python it is for.
+    platform
+        One of :data:`PLATFORMS`.
+    folder
+        Where the zip goes; it is made if needed.
+
+    Returns
+    -------
+    Path
+        The zip.
+
+    Raises
+    ------
+    InputError
+        If the platform is not known, or this pdtheory does not run from its source.
+    MissingDependencyError
+        If pip or Blender's extension tool cannot be found.
+    ComputationError
+        If one of the tools fails, with what it said.
+    """
+    if platform not in PLATFORMS:
+        raise InputError(
+            f"the platform {platform!r} is not known; give one of {', '.join(PLATFORMS)}."
+        )
+    root = source_root()
+    tool = _extension_tool()
+    folder.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory() as scratch:
+        stage = Path(scratch) / "principal_directions"
+        shutil.copytree(
+            root / "blender_addon", stage, ignore=shutil.ignore_patterns("__pycache__", "*.pyc")
+        )
+        wheels = stage / "wheels"
+        wheels.mkdir()
+        pip = _pip()
+        _run(*pip, "wheel", "--quiet", "--no-deps", "--wheel-dir", str(wheels), str(root))
+        _download(pip, runtime, platform, wheels)
+        version = _complete_manifest(stage, runtime, platform)
+        target = folder / f"principal_directions-{version}-{runtime.tag}-{platform}.zip"
+        built = Path(scratch) / target.name
+        blender_tool = (sys.executable, str(tool))
+        _run(*blender_tool, "build", "--source-dir", str(stage), "--output-filepath", str(built))
+        _run(*blender_tool, "validate", str(built))
+        shutil.move(built, target)
+    return target
+
+
+def _download(pip: Sequence[str], runtime: Runtime, platform: str, folder: Path) -> None:
+    """Gather the wheels of the libraries, without NumPy."""
+    tags = [f"--platform={tag}" for tag in PLATFORMS[platform]]
+    tags += [f"--abi={abi}" for abi in (runtime.tag, "abi3", "none")]
+    tags += [f"--python-version={runtime.python}", "--implementation=cp"]
+    wanted = (*_LIBRARIES, runtime.numpy)
+    _run(*pip, "download", "--quiet", "--only-binary=:all:", f"--dest={folder}", *tags, *wanted)
+    for wheel in folder.glob(f"{_NUMPY}-*.whl"):
+        wheel.unlink()
+
+
+def _complete_manifest(stage: Path, runtime: Runtime, platform: str) -> str:
+    """Write version, platform, Blenders and wheels into the manifest; return the version."""
+    import pdtheory
+
+    manifest = stage / "blender_manifest.toml"
+    wheels = sorted(path.name for path in (stage / "wheels").glob("*.whl"))
+    lines = []
+    for line in manifest.read_text(encoding="utf-8").splitlines():
+        key = line.partition("=")[0].strip()
+        if key == "version":
+            line = f'version = "{pdtheory.__version__}"'
+        elif key == "blender_version_min":
+            line = f'blender_version_min = "{runtime.blender_min}"'
+            if runtime.blender_max is not None:
+                line += f'\nblender_version_max = "{runtime.blender_max}"'
+            line += f'\nplatforms = ["{platform}"]\nwheels = [\n'
+            line += "".join(f'  "./wheels/{name}",\n' for name in wheels) + "]"
+        lines.append(line)
+    manifest.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    return pdtheory.__version__
+
+
+def _extension_tool() -> Path:
+    """Return the path of Blender's own tool for extensions, which comes with the bpy wheel.
+
+    Raises
+    ------
+    MissingDependencyError
+        If bpy is not installed.
+    """
+    found = find_spec("bpy")
+    for place in (found.submodule_search_locations or ()) if found is not None else ():
+        for tool in Path(place).glob("*/scripts/addons_core/bl_pkg/cli/blender_ext.py"):
+            return tool
+    raise MissingDependencyError(
+        "building the extension needs Blender's extension tool, which comes with the Python module "
+        "bpy; install it with `uv sync --extra blender` (Python 3.11 or 3.13)."
+    )
+
+
+def _pip() -> list[str]:
+    """Return a command that runs pip.
+
+    Raises
+    ------
+    MissingDependencyError
+        If neither pip nor uv is there.
+    """
+    if find_spec("pip") is not None:
+        return [sys.executable, "-m", "pip", "--disable-pip-version-check"]
+    if shutil.which("uv"):
+        return ["uv", "tool", "run", "--quiet", "pip", "--disable-pip-version-check"]
+    raise MissingDependencyError("gathering the wheels needs pip or uv; install one of them.")
+
+
+def _run(*command: str) -> str:
+    """Run a tool and return what it printed.
+
+    Raises
+    ------
+    ComputationError
+        If it fails.
+    """
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    if done.returncode:
+        said = (done.stderr.strip() or done.stdout.strip()).splitlines()
+        raise ComputationError(
+            f"{Path(command[0]).name} failed while packing the extension: "
+            f"{said[-1].strip() if said else f'exit code {done.returncode}'}."
+        )
+    return done.stdout
+
+
+def find_blender(given: Path | None = None) -> Path:
+    """Find a Blender program.
+
+    Parameters
+    ----------
+    given
+        Use this one.
+
+    Raises
+    ------
+    InputError
+        If there is none.
+    """
+    if given is not None:
+        if not given.is_file():
+            raise InputError(f"no such program: {given}; give the path of Blender.")
+        return given
+    for candidate in _candidates():
+        if candidate.is_file():
+            return candidate
+    raise InputError("no Blender found; say where it is with --blender PATH.")
+
+
+def _candidates() -> Iterator[Path]:
+    for place in (os.environ.get("BLENDER"), shutil.which("blender")):
+        if place:
+            yield Path(place)
+    yield Path("/Applications/Blender.app/Contents/MacOS/Blender")
+    programs = os.environ.get("PROGRAMFILES")
+    if programs:
+        yield from sorted(
+            Path(programs).glob("Blender Foundation/Blender */blender.exe"), reverse=True
+        )
+
+
+def python_of(blender: Path) -> str:
+    """Return the Python version that a Blender carries.
+
+    Raises
+    ------
+    ComputationError
+        If it does not start.
+    """
+    mark = "pdtheory-python:"
+    code = f"import sys; print('{mark}%d.%d' % sys.version_info[:2])"
+    said = _run(str(blender), "--background", "--factory-startup", "--python-expr", code)
+    for line in said.splitlines():
+        if line.startswith(mark):
+            return line[len(mark) :].strip()
+    raise ComputationError(f"{blender} did not say which Python it carries; is it Blender 4.2+?")
+
+
+def install_zip(blender: Path, package: Path) -> None:
+    """Install a zip into a Blender and switch it on.
+
+    Raises
+    ------
+    InputError
+        If the file is no zip of the extension.
+    ComputationError
+        If Blender refuses it.
+    """
+    with _opened(package) as archive:
+        if "blender_manifest.toml" not in archive.namelist():
+            raise InputError(f"{package} is no Blender extension; build one with addon build.")
+    command = (str(blender), "--command", "extension", "install-file")
+    _run(*command, "--repo", "user_default", "--enable", str(package.resolve()))
+
+
+@contextmanager
+def _opened(package: Path) -> Iterator[zipfile.ZipFile]:
+    try:
+        with zipfile.ZipFile(package) as archive:
+            yield archive
+    except FileNotFoundError as error:
+        raise InputError(f"no such file: {package}.") from error
+    except zipfile.BadZipFile as error:
+        raise InputError(f"{package} is no zip; build one with addon build.") from error
