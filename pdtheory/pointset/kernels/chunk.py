@@ -20,7 +20,13 @@ from pdtheory.pointset.kernels.regression import (
 )
 from pdtheory.pointset.kernels.roots import critical_angles, evaluate, value
 from pdtheory.pointset.kernels.tables import Scratch, Tables, make_scratch
-from pdtheory.pointset.kernels.uncertainty import direction_variances, order_covariance, spread
+from pdtheory.pointset.kernels.uncertainty import (
+    coefficient_spread,
+    direction_variances,
+    fill_shift_powers,
+    order_covariance,
+    spread,
+)
 
 _UNANSWERED = int(Status.TOO_FEW_NEIGHBOURS | Status.DEGENERATE_FRAME)
 _NON_FINITE = int(Status.NON_FINITE)
@@ -173,9 +179,10 @@ def _find_directions(
             coefficient_count(fit.top),
             fit.top,
             order,
-            fit.cx,
-            fit.cy,
             tables.binomial,
+            s.powers,
+            s.square,
+            s.gradient,
             s.step,
             s.spreads,
             s.covariance,
@@ -236,7 +243,9 @@ def _noise_of_l1(cloud: Array, n: int, used: int) -> float:
 
 
 @inner
-def _prepare_uncertainty(cloud: Array, n: int, fit: Fit, settings: Settings, s: Scratch) -> float:
+def _prepare_uncertainty(
+    cloud: Array, n: int, fit: Fit, settings: Settings, tables: Tables, s: Scratch
+) -> float:
     """Set up ``s.S`` for the covariances; returns the standard deviation of the heights."""
     size = coefficient_count(fit.top)
     weights = cloud[4]
@@ -256,6 +265,21 @@ def _prepare_uncertainty(cloud: Array, n: int, fit: Fit, settings: Settings, s: 
     fill_gram(s.moments, fit.top, s.offsets, s.S)
     # The diagonal of G stays for the rounding bound.
     used = spread(s.G, s.S, fit.first, size, s.step, s.spare)
+    fill_shift_powers(fit.cx, fit.cy, fit.top, s.powers)
+    for axis in range(2):
+        coefficient_spread(
+            s.S,
+            s.G,
+            fit.first,
+            size,
+            fit.top,
+            1 - axis,
+            axis,
+            tables.binomial,
+            s.powers,
+            s.step,
+            s.gradient[axis],
+        )
     if settings.robust:
         return _noise_of_l1(cloud, n, size - fit.first)
     left = total - used
@@ -367,7 +391,7 @@ def run_chunk(
         level = 2.3e-16 + coordinate_rounding / radius
         noise = np.nan
         if settings.uncertainty:
-            noise = _prepare_uncertainty(cloud, n, fit, settings, scratch)
+            noise = _prepare_uncertainty(cloud, n, fit, settings, tables, scratch)
         for j in range(len(orders)):
             if orders[j] > fit.degree:
                 continue

@@ -285,10 +285,8 @@ def untilt(c: Array, degree: int, frame: Array, table: Array, middle: Array, squ
     """
     size = coefficient_count(degree)
     slope = np.hypot(c[size - 3], c[size - 2])
-    if slope == 0.0:
-        return
-    a = c[size - 3] / slope
-    b = c[size - 2] / slope
+    a = c[size - 3] / slope if slope > 0.0 else 0.0
+    b = c[size - 2] / slope if slope > 0.0 else 0.0
     tilt(frame, c[size - 3], c[size - 2])
     angle = np.arctan(slope)
     row = 0
@@ -491,6 +489,10 @@ def fit_point(cloud: Array, n: int, reference: Array, settings: Settings, s: Scr
         untilt(s.c, degree, s.frame, s.table, s.middle, s.square)
         for i in range(first):
             s.c[i] = 0.0
+    else:
+        for i in range(degree + 2):
+            for j in range(degree + 2 - i):
+                s.square[i, j] = 0.0
     if refined:
         status |= _REFINED
     if reached < degree:

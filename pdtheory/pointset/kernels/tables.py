@@ -78,6 +78,8 @@ class Scratch(structref.StructRefProxy):
     angle: Any
     kind: Any
     full_disc: Any
+    powers: Any
+    gradient: Any
     spreads: Any
     covariance: Any
     found: Any
@@ -156,7 +158,7 @@ def make_scratch(degree: int, full_disc: Array) -> Scratch:
         np.empty((n, n)),
         np.empty((n, n)),
         np.empty(n),
-        np.empty(n + 2 * degree + 2),
+        np.empty(n),
         np.empty(n),
         np.empty(n),
         np.empty(n),
@@ -174,6 +176,8 @@ def make_scratch(degree: int, full_disc: Array) -> Scratch:
         np.empty(degree + 1),
         np.empty(degree + 1, dtype=np.int8),
         full_disc,
+        np.empty((2, degree + 1)),
+        np.empty((2, n)),
         np.empty((max(degree + 1, 4), n)),
         np.empty((degree + 1, degree + 1)),
         np.empty((2 * degree, 5)),

@@ -67,21 +67,31 @@ def spread(L: Array, S: Array, s: int, n: int, diagonal: Array, pivots: Array) -
 
 
 @inner
-def order_covariance(
+def fill_shift_powers(cx: float, cy: float, top: int, powers: Array) -> None:
+    """Write the powers of -cx and -cy up to `top` to the two rows of `powers`."""
+    powers[0, 0] = powers[1, 0] = 1.0
+    for i in range(top):
+        powers[0, i + 1] = -cx * powers[0, i]
+        powers[1, i + 1] = -cy * powers[1, i]
+
+
+@inner
+def coefficient_spread(
     X: Array,
     L: Array,
     s: int,
     n: int,
     top: int,
-    order: int,
-    cx: float,
-    cy: float,
+    a: int,
+    b: int,
     binomial: Array,
+    powers: Array,
     work: Array,
-    spreads: Array,
-    covariance: Array,
+    out: Array,
 ) -> None:
-    """Write the covariance of the coefficients of one order at the origin, for unit noise.
+    """Write X L^-T e to `out`, e taking the coefficients to that of x^a y^b about the origin.
+
+    Its inner products are the covariances of such coefficients for unit noise.
 
     Parameters
     ----------
@@ -89,44 +99,78 @@ def order_covariance(
         From `spread` and `factor`.
     s, n, top : int
         First index in use, size, degree that the indices belong to.
-    order : int
-        The order k.
-    cx, cy : float
-        Centre about which the fit was made.
+    a, b : int
+        The powers.
     binomial : (top + 1, top + 1) float64
         Binomial coefficients.
-    work : (n + 2 top + 2,) float64
-        Scratch.
+    powers : (2, top + 1) float64
+        From `fill_shift_powers`.
+    work, out : (n,) float64
+        Scratch, and the result in s..n - 1.
+    """
+    order = a + b
+    end = degree_start(top, order) + order + 1
+    for i in range(s, end):
+        work[i] = 0.0
+    for d in range(order, top + 1):
+        row = degree_start(top, d)
+        if row < s:
+            continue
+        for j in range(b, d - a + 1):
+            work[row + j] = (
+                binomial[d - j, a] * binomial[j, b] * powers[0, d - j - a] * powers[1, j - b]
+            )
+    solve_transposed(L, s, end, work)
+    for i in range(s, n):
+        t = 0.0
+        for j in range(min(i + 1, end) - s):
+            t += X[i, s + j] * work[s + j]
+        out[i] = t
+
+
+@inner
+def order_covariance(
+    X: Array,
+    L: Array,
+    s: int,
+    n: int,
+    top: int,
+    order: int,
+    binomial: Array,
+    powers: Array,
+    square: Array,
+    gradient: Array,
+    work: Array,
+    spreads: Array,
+    covariance: Array,
+) -> None:
+    """Write the covariance of the coefficients of one order at the origin, for unit noise.
+
+    The frame is tangent to the fitted surface, so an error (a, b) of the gradient also turns it,
+    which changes the heights h by -(a d/dx + b d/dy)(h^2) / 2.
+
+    Parameters
+    ----------
+    X, L, s, n, top, binomial, powers, work
+        As for `coefficient_spread`.
+    order : int
+        The order k.
+    square : (> top + 1, > top + 1) float64
+        Coefficients of h^2 by powers of x and y; zeros if the frame is not that of the fit.
+    gradient : (2, n) float64
+        Spreads of the coefficients of x and y.
     spreads : (>= order + 1, n) float64
         Scratch.
     covariance : (>= order + 1, >= order + 1) float64
         Receives the covariance of c_{k-b,b}, b = 0..k.
     """
-    powers_x = work[n:]
-    powers_y = work[n + top + 1 :]
-    powers_x[0] = powers_y[0] = 1.0
-    for i in range(top):
-        powers_x[i + 1] = -cx * powers_x[i]
-        powers_y[i + 1] = -cy * powers_y[i]
-    end = degree_start(top, order) + order + 1
     for b in range(order + 1):
         a = order - b
-        for i in range(s, end):
-            work[i] = 0.0
-        for d in range(order, top + 1):
-            row = degree_start(top, d)
-            if row < s:
-                continue
-            for j in range(b, d - a + 1):
-                work[row + j] = (
-                    binomial[d - j, a] * binomial[j, b] * powers_x[d - j - a] * powers_y[j - b]
-                )
-        solve_transposed(L, s, end, work)
-        for i in range(s, n):
-            t = 0.0
-            for j in range(min(i + 1, end) - s):
-                t += X[i, s + j] * work[s + j]
-            spreads[b, i] = t
+        coefficient_spread(X, L, s, n, top, a, b, binomial, powers, work, spreads[b])
+        by_x = -0.5 * (a + 1) * square[a + 1, b]
+        by_y = -0.5 * (b + 1) * square[a, b + 1]
+        for i in range(n - s):
+            spreads[b, s + i] += by_x * gradient[0, s + i] + by_y * gradient[1, s + i]
     for b1 in range(order + 1):
         for b2 in range(b1 + 1):
             t = 0.0
