@@ -74,10 +74,16 @@ def cone_fit(
         ),
         moments=start,
     )
-    yield identity(
-        r"$c_{33}(10)$ for the uniform weight.",
-        fit(uniform_moment, basis(DEGREE, 3), 1)[3],
-        sp.Rational(c33),
+    powers = basis(DEGREE, 3)
+    solution = fit(uniform_moment, powers, 1)
+    yield fact(
+        r"$c_{33}(10) = 28/3$ for the uniform weight: the system of four equations and its "
+        r"solution.",
+        solution[3] == sp.Rational(c33)
+        and not any(normal_residuals(uniform_moment, powers, 1, solution)),
+        matrix=[[uniform_moment(a + b + 1) for b in powers] for a in powers],
+        right_side=[uniform_moment(a + 2) for a in powers],
+        solution=solution,
     )
     residuals = {
         (degree, frequency): normal_residuals(
@@ -115,8 +121,8 @@ def cone_order3(orders: Orders, data: int = 1) -> Iterator[Step]:
         r"$r h_1 e^{i \theta}$ is itself in the basis ($k = n = 1$), so $c_{l1} = \delta_{l1}$ "
         r"solves the system: the equation of $r^k$ reads $\mu_{k+1+1} = \mu_{k+2}$; the solution "
         r"is unique (a positive weight).",
-        mu(a + 1 + 1),
-        mu(a + data + 1),
+        lambda: mu(a + 1 + 1) * 1,
+        lambda: mu(a + data + 1),
     )
     solutions = {
         (degree, name): fit(moment, basis(degree, 1), data)
@@ -139,8 +145,8 @@ def cone_order3(orders: Orders, data: int = 1) -> Iterator[Step]:
     yield identity(
         r"So $\phi_{31} = 0$ and $g_3 = 2\, \mathrm{Re}\, \phi_{33} e^{3 i \theta}$, which a turn "
         r"by 120 degrees leaves alone.",
-        sp.expand_trig(g.subs(third, third + 2 * sp.pi / 3)),
-        sp.expand_trig(g),
+        lambda: 2 * phi * sp.cos(3 * (third + 2 * sp.pi / 3)),
+        g,
     )
 
 
@@ -172,7 +178,7 @@ def cone_creases(
     )
     yield identity(
         r"For $n = \pm 1$ the left side is 0: $\sum_j J_j e^{\mp i a_j} = 0$.",
-        sp.expand(sp.diff(boundary, t) / wave).subs(n, 1),
+        sp.Derivative(boundary.subs(n, 1), t),
         denominator(sp.Integer(1)) * h,
     )
     m = 2

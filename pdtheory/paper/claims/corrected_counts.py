@@ -166,8 +166,8 @@ def order4_discriminant(
         r"\alpha + i \beta$. With $\alpha^2 = p^3$, $\beta^2 = q^3$, $16 = r^3$ it is $A^3 + 27 "
         r"(p q r)^3$, $A = p^3 + q^3 - r^3$, which has the real factor $A + 3 p q r = (p + q - "
         r"r)\,(\dots)$ with a positive second factor: it is 0 only on the astroid $p + q = r$.",
-        sp.expand((p**3 + q**3 - r**3) + 3 * p * q * r),
-        sp.expand((p + q - r) * (((p - q) ** 2 + (p + r) ** 2 + (q + r) ** 2) / 2)),
+        (p**3 + q**3 - r**3) + 3 * p * q * r,
+        (p + q - r) * (((p - q) ** 2 + (p + r) ** 2 + (q + r) ** 2) / 2),
     )
 
 
@@ -194,7 +194,7 @@ def two_frequency_hypocycloid(
     second = -(q**2) * sp.exp(sp.I * q * t) - p**2 * term
 
     def real_part(value: Any) -> Any:
-        return sp.expand(value + sp.conjugate(value))
+        return value + sp.conjugate(value)
 
     yield identity(
         r"On the curve the direction $t$ has $g' = 0$ (symbolic $p$, $q$).", real_part(first)
@@ -204,16 +204,13 @@ def two_frequency_hypocycloid(
         r"$a$, with the determinant $p^3$, the curve has all double roots.",
         real_part(second),
     )
-    modulus = sp.expand(a * sp.conjugate(a))
     yield identity(
         r"$|a(t)|^2 = \frac{q^4}{p^4} \cos^2 q t + \frac{q^2}{p^2} \sin^2 q t$, between $(q/p)^2$ "
         r"and $(q/p)^4$; so the disc $|a| < q/p$ and the outside of $|a| = (q/p)^2$ are connected "
         r"and do not meet the curve, and the number of maxima is constant in each: $q$ as at $a = "
         r"0$, $p$ as for $a \to \infty$, where $g / |a|$ tends to a cosine with $p$ simple maxima.",
-        modulus,
-        sp.expand(
-            (q**4 / p**4 * sp.cos(q * t) ** 2 + q**2 / p**2 * sp.sin(q * t) ** 2).rewrite(sp.exp)
-        ),
+        a * sp.conjugate(a),
+        q**4 / p**4 * sp.cos(q * t) ** 2 + q**2 / p**2 * sp.sin(q * t) ** 2,
     )
     results: dict[tuple[int, int], list[int | None]] = {}
     one = (Fraction(1), Fraction(0))

@@ -54,8 +54,9 @@ def complex_eigenpairs(
     yield identity(
         r"Each term gives $i n$ times itself (symbolic $k$, $n$), so $F = k! \sum_n i n \phi_n "
         r"z^{(k+n)/2} w^{(k-n)/2}$.",
-        sp.simplify(_turn(_term()) / _term()),
-        sp.I * n,
+        sp.I * (_Z * sp.Derivative(_term(), _Z) - _W * sp.Derivative(_term(), _W)),
+        sp.I * n * _term(),
+        over=_term(),
     )
     u = sp.Symbol("u", positive=True)
     yield identity(
@@ -63,13 +64,13 @@ def complex_eigenpairs(
         r"\sin t)$ with $e = e^{i t}$. There, with $u = e^2$, $u^{k/2} z^{(k+n)/2} w^{(k-n)/2} = "
         r"u^{(k+n)/2}$: $F = 0$ is $P(u) = 0$, $u \neq 0$, and by Theorem 4.3, an algebraic "
         r"identity, these are the E-eigenvectors with $\lambda = f(v)$.",
-        sp.powsimp(u ** (k / 2) * _term().subs({_Z: sp.sqrt(u), _W: 1 / sp.sqrt(u)})),
+        lambda: u ** (k / 2) * sp.sqrt(u) ** ((k + n) / 2) * (1 / sp.sqrt(u)) ** ((k - n) / 2),
         u ** ((k + n) / 2),
     )
     N = sp.Symbol("N", integer=True, positive=True)
     yield identity(
         r"The exponents go from $(k - N)/2$ to $(k + N)/2$, $N = n_{\max}$: $N$ roots $u \neq 0$.",
-        (k + N) / 2 - (k - N) / 2,
+        lambda: (k + N) / 2 - (k - N) / 2,
         number(N),
     )
     at_isotropic = {_Z: 0, _W: 2}
@@ -211,13 +212,13 @@ def e_characteristic_polynomial(
         degrees=degrees,
     )
     scale = sp.Symbol("h", positive=True)
-    scaled = _term().subs({_Z: scale * _Z, _W: scale * _W})
     yield identity(
         r"The resultant vanishes at $\lambda$ exactly if $F$ and $f - \lambda q^{k/2}$ have a "
         r"common zero. Where $q \neq 0$ it may be scaled to $q = 1$, an E-eigenvector with "
         r"$\lambda = f(v)$: scaling $v$ by $h$ multiplies every term by $h^k$ (symbolic $k$).",
-        sp.powsimp(sp.expand_power_base(scaled, force=True) / _term()),
-        scale**k,
+        sp.expand_power_base(_term().subs({_Z: scale * _Z, _W: scale * _W}), force=True),
+        scale**k * _term(),
+        over=_term(),
     )
 
 
@@ -238,21 +239,21 @@ def _degree(values: list[Any]) -> int:
     r"$\phi_k = \phi_{k-2} = 0$, that is, if $(x^2 + y^2)^2$ divides $f$; then $\psi = 0$.",
 )
 def irregular_tensors(orders: Orders, depth: int = 2) -> Iterator[Step]:
-    f_z, f_w = sp.diff(_term(), _Z), sp.diff(_term(), _W)
-    powers = [sp.simplify(_Z * d / _term()) for d in (f_z, f_w * _W / _Z)]
     yield identity(
         r"$T v^{k-1} = 0$ at an isotropic vector means $f_z = f_w = 0$ at $z = 0$ (or at $w = 0$, "
         r"the conjugate). For the term with $n = -k + 2m$, $f_z = m z^{m-1} w^{k-m}$: not 0 at $z "
         r"= 0$ only for $m = 1$.",
-        powers[0].subs(n, -k + 2 * _M),
-        _M,
+        sp.Derivative(_Z**_M * _W ** (k - _M), _Z),
+        _M * _Z ** (_M - 1) * _W ** (k - _M),
+        over=_Z**_M * _W ** (k - _M),
     )
     yield identity(
         r"And $f_w = (k - m) z^m w^{k-m-1}$: not 0 only for $m = 0$. So both vanish exactly if "
         r"$\phi_{-k} = \phi_{-k+2} = 0$: $f$ has the factor $z^2$ and, being real, $w^2$: $(z "
         r"w)^2 = (x^2 + y^2)^2$.",
-        powers[1].subs(n, -k + 2 * _M),
-        k - _M,
+        sp.Derivative(_Z**_M * _W ** (k - _M), _W),
+        (k - _M) * _Z**_M * _W ** (k - _M - 1),
+        over=_Z**_M * _W ** (k - _M),
     )
     generator = random.Random(23)
     vanishing, others = {}, {}

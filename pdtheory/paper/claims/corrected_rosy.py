@@ -26,8 +26,6 @@ from pdtheory.paper.claims.kit import (
     row_of_lines,
     star,
     t,
-    x,
-    y,
 )
 
 section = Section("Corrected theorems: regularity and realizable maxima")
@@ -72,15 +70,15 @@ def k_rosy(
     )
     A, B, c = sp.symbols("A B c")
     half = sp.Symbol("m", integer=True, positive=True)
-    P = sp.expand(c * (_U**half - A) * (_U**half - B))
+    P = c * (_U**half - A) * (_U**half - B)
     yield identity(
         r"$k = 2 m$: the maxima are the roots of $u^m = A$, the minima of $u^m = B$, so $P = c "
         r"(u^m - A)(u^m - B)$. The coefficient of $u^m$ belongs to $n = 0$, and $n \phi_n = 0$ "
         r"there: $B = -A$ (minima halfway), and $P = c (u^k - A^2)$ (symbolic $m$).",
         P.subs(B, -A),
-        sp.expand(c * (_U ** (2 * half) - A**2)),
+        c * (_U ** (2 * half) - A**2),
     )
-    yield identity(r"That coefficient is $-c (A + B)$.", P.coeff(_U**half), -c * (A + B))
+    yield identity(r"That coefficient is $-c (A + B)$.", sp.expand(P).coeff(_U**half), -c * (A + B))
     results = {}
     for order in sorted({*odd, *even}):
         row: dict[int, tuple[Fraction, Fraction]] = {}
@@ -208,15 +206,15 @@ def order3_maxima(
     )
     a, b = sp.symbols("a b", real=True)
     c = 2 * sp.pi - a - b
-    at = {angles[0]: 0, angles[1]: a, angles[2]: a + b}
-    gaps = {0: -sp.sin(a) * sp.sin(c), 1: -sp.sin(a) * sp.sin(b), 2: -sp.sin(b) * sp.sin(c)}
-    for j, expected in gaps.items():
-        g2 = sp.prod([sp.sin(angles[j] - angles[m]) for m in range(3) if m != j]).subs(at)
+    at = (sp.Integer(0), a, a + b)
+    around = ((a, c), (a, b), (b, c))
+    for j, (before, after) in enumerate(around):
+        others = [at[m] for m in range(3) if m != j]
         yield identity(
             rf"With the gaps $a, b, c$, $a + b + c = 2\pi$: $g''(t_{j + 1}) / C$ is minus the "
             "product of the sines of its two gaps.",
-            sp.expand_trig(g2),
-            sp.expand_trig(expected),
+            lambda j=j, others=others: sp.sin(at[j] - others[0]) * sp.sin(at[j] - others[1]),
+            -sp.sin(before) * sp.sin(after),
         )
     p, q, r = sp.symbols("p q r", real=True)
     yield identity(
@@ -224,14 +222,14 @@ def order3_maxima(
         r"all negative; all are positive exactly if the sines have one sign, which must be "
         r"positive as the gaps add up to $2 \pi$: all gaps below $\pi$. Then $C > 0$ makes all "
         r"three maxima; otherwise no sign of $C$ does.",
-        (p * q) * (q * r) * (p * r),
-        (p * q * r) ** 2,
+        lambda: (p * q) * (q * r) * (p * r),
+        lambda: (p * q * r) ** 2,
     )
     yield identity(
         r"$(0, 90, 180)$: $g' = C \sin^2\theta \cos\theta$, $g = \frac{C}{3} \sin^3\theta$, one "
         r"gap of exactly 180 degrees.",
-        sp.expand_trig(sp.sin(t) * sp.sin(t - sp.pi / 2) * sp.sin(t - sp.pi)),
-        sp.diff(sp.sin(t) ** 3 / 3, t),
+        lambda: sp.sin(t) * sp.sin(t - sp.pi / 2) * sp.sin(t - sp.pi),
+        sp.Derivative(sp.sin(t) ** 3 / 3, t),
     )
 
 
@@ -248,7 +246,7 @@ def maxima_interlacing(
     yield identity(
         r"Necessary, $k$ odd: the minima are $M + \pi$ (parity), and maxima and minima alternate; "
         r"the counts are those of *count-max-min*. $k$ even: $g(\theta + \pi) = g(\theta)$.",
-        (-1) ** (2 * n + 1),
+        lambda: (-1) ** (2 * n + 1),
         -1,
     )
     generator = random.Random(13)
@@ -301,7 +299,7 @@ def maxima_interlacing(
     yield identity(
         r"$g$ has order $2p \leq k$ and multiplying its form by $(x^2 + y^2)^{(k - 2p)/2}$ makes "
         r"it one of order $k$ with the same values on the circle.",
-        ((x**2 + y**2) ** ((k - n) / 2)).subs({x: sp.cos(t), y: sp.sin(t)}).simplify(),
+        lambda: (sp.cos(t) ** 2 + sp.sin(t) ** 2) ** ((k - n) / 2),
         1,
     )
 

@@ -43,7 +43,6 @@ def taylor_first_terms(
     orders: Orders, printed: Callable[[Any], Any] | None = None, corrected: bool = True
 ) -> Iterator[Step]:
     p, q, r, a, b, c = sp.symbols("p q r a b c", real=True)
-    size = sp.Symbol("epsilon", positive=True)
     f = r + p * x + q * y + a * x**2 + b * x * y + c * y**2
     length = sp.sqrt(1 + p**2 + q**2)
     linear = printed or (lambda g: (-g[0] / length, -g[1] / length))
@@ -60,16 +59,13 @@ def taylor_first_terms(
     at = {x: 0, y: 0}
     hessian = sp.hessian(f, (x, y))
     v = sp.Matrix([x, y])
-    remainder = (
-        f
-        - r
-        - sum(g.subs(at) * s for g, s in zip(gradient, (x, y), strict=True))
-        - (v.T * hessian * v)[0] / 2
-    )
+    linear_part = sum(g.subs(at) * s for g, s in zip(gradient, (x, y), strict=True))
+    quadratic_part = (v.T * hessian * v)[0] / 2
     yield identity(
         r"With the gradient the remainder of every polynomial of degree 2 vanishes; terms "
         r"$x^a y^b$, $a + b \geq 3$, are $o(\|v\|^2)$.",
-        sp.expand(remainder.subs({x: size * x, y: size * y})),
+        f,
+        lambda: r + linear_part + quadratic_part,
     )
 
 
@@ -104,13 +100,12 @@ def taylor_tensor(
         1,
     )
     a, b = sp.symbols("a b", integer=True, nonnegative=True)
-    derivative = sp.ff(a, a) * sp.ff(b, b)
     yield identity(
         r"(4.6) is exact on $x^a y^b$: its only derivative that is not 0 at the origin is "
         r"$\partial^{a+b} / \partial x^a \partial y^b = a!\, b!$, which gives the term back. By "
         r"linearity it is exact on polynomials, and the remainder of a $K$ times differentiable "
         r"$f$ is Peano's $o(\|v\|^K)$.",
-        derivative / (sp.factorial(a) * sp.factorial(b)),
+        lambda: sp.ff(a, a) * sp.ff(b, b) / (sp.factorial(a) * sp.factorial(b)),
         1,
     )
 
@@ -158,14 +153,14 @@ def mixed_partials(orders: Orders, f: Any = _PEANO) -> Iterator[Step]:
     )
     h, h_xx, h_xy, h_yx, h_yy = sp.symbols("h f_xx f_xy f_yx f_yy")
     model_x, model_y = h_xx * a + h_xy * b, h_yx * a + h_yy * b
-    first = h * (model_x.subs(b, h) - model_x.subs(b, 0)) / h**2
-    second = h * (model_y.subs(a, h) - model_y.subs(a, 0)) / h**2
+    first = model_x.subs(b, h) - model_x.subs(b, 0)
+    second = model_y.subs(a, h) - model_y.subs(a, 0)
     yield identity(
         r"Corrected (Young): let $f_x$ and $f_y$ be differentiable at 0. The second difference "
         r"$\Delta = f(h, h) - f(h, 0) - f(0, h) + f(0, 0)$ is symmetric in the variables, and by "
         r"the mean value theorem it is $h (f_x(\xi, h) - f_x(\xi, 0)) = h^2 f_{xy} + o(h^2)$ and "
         r"likewise $h^2 f_{yx} + o(h^2)$; apply it to derivatives of order $k - 2$.",
-        first - second,
+        lambda: h * first / h**2 - h * second / h**2,
         h_xy - h_yx,
     )
     m = sp.Symbol("m", integer=True, positive=True)
@@ -239,8 +234,8 @@ def theorem_equivalence(
     yield identity(
         r"The vector $(-y, x)$ has $|(-y, x)|^2 = |v|^2 = 1$, so it is not 0 and the left side "
         r"vanishes exactly where $F$ does.",
-        normal[0] ** 2 + normal[1] ** 2,
-        x**2 + y**2,
+        lambda: normal[0] ** 2 + normal[1] ** 2,
+        lambda: x**2 + y**2,
     )
 
 
@@ -287,17 +282,16 @@ def extrema_or_critical(orders: Orders, f: Any = y**3, order: int = 3) -> Iterat
         all(2 in count for count in counts.values()),
         lines_by_multiplicity=counts,
     )
+    a, b, c = sp.symbols("a b c", real=True)
+    F = sp.Poly(sp.expand(angular(a * x**2 + b * x * y + c * y**2).subs({x: 1, y: t})), t)
+    squares = 4 * (a - c) ** 2 + 4 * b**2
     yield fact(
         r"No form of order 2 has an inflection: $F$ is a quadratic form, zero or with two "
         r"different real roots, as its discriminant is a sum of squares.",
-        _order_two_discriminant() == 0,
+        sp.expand(F.discriminant() - squares) == 0,
+        F=F.as_expr(),
+        discriminant=squares,
     )
-
-
-def _order_two_discriminant() -> Any:
-    a, b, c = sp.symbols("a b c", real=True)
-    F = sp.Poly(sp.expand(angular(a * x**2 + b * x * y + c * y**2).subs({x: 1, y: t})), t)
-    return sp.expand(F.discriminant() - (4 * (a - c) ** 2 + 4 * b**2))
 
 
 #: e = e^(i t); on the circle cos t = (e + 1/e) / 2 and sin t = (e - 1/e) / (2 i).

@@ -35,11 +35,18 @@ Row = Mapping[int, tuple[Fraction, Fraction]]
 def vanish(expression: Any) -> Any:
     """Reduce an expression that ought to be zero; the result is 0 only if it is zero."""
     expression = sp.sympify(expression)
-    for reduce in (sp.expand, _as_exponentials, sp.combsimp, sp.simplify):
+    for reduce in (sp.expand, _multiples, _as_exponentials, sp.combsimp, sp.simplify):
         if expression == 0:
             return expression
         expression = reduce(expression)
     return expression
+
+
+def _multiples(expression: Any) -> Any:
+    """Expand angles that are sums and multiples, and roots of unity."""
+    if not expression.free_symbols:
+        expression = sp.expand_complex(expression)
+    return sp.expand(sp.expand_trig(expression))
 
 
 def _as_exponentials(expression: Any) -> Any:
@@ -63,14 +70,29 @@ def identity(
     text
         What the identity says.
     left, right
-        The two sides; derivatives, integrals and limits may be unevaluated, and are shown so.
+        The two sides. Derivatives, integrals and limits may be unevaluated, and are shown so; a
+        side that SymPy would simplify at once is given as a function, and shown as it is written.
     over
         A factor that is not 0, by which the difference is divided to simplify it.
     shows
         Part of the identity in the certificate.
     """
-    rest = vanish((sp.sympify(left) - sp.sympify(right)).doit() / over)
-    return fact(text, rest == 0, shows=shows, identity=f"{left} = {right}", difference=rest)
+    values = [side() if _is_function(side) else sp.sympify(side) for side in (left, right)]
+    rest = vanish((values[0] - values[1]).doit() / over)
+    shown = " = ".join(map(_written, (left, right)))
+    return fact(text, rest == 0, shows=shows, identity=shown, difference=rest)
+
+
+def _written(side: Any) -> str:
+    if not _is_function(side):
+        return str(side)
+    with sp.evaluate(False):
+        raw = side()
+    return sp.sstr(raw, order="none")
+
+
+def _is_function(side: Any) -> bool:
+    return callable(side) and not isinstance(side, sp.Basic)
 
 
 def differs(text: str, left: Any, right: Any, *, shows: Shows) -> Step:

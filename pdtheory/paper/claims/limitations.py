@@ -19,7 +19,6 @@ from pdtheory.paper.claims.kit import (
     identity,
     real_lines,
     t,
-    tensor_on,
     x,
     y,
 )
@@ -75,7 +74,7 @@ def continuity(
         r"Every $k \geq 3$ has two frequencies $0 < p < q \leq k$ of its parity. $g = \cos "
         r"q\theta + c \cos p\theta$ has $g'(0) = 0$ and $g''(0) = -q^2 - c p^2$, which changes "
         r"sign at $c = -q^2 / p^2$: a direction that was a maximum is a minimum.",
-        sp.diff(g, t, 2).subs(t, 0).subs(c, -(q**2) / p**2),
+        sp.Subs(sp.Derivative(g, (t, 2)), (t, c), (0, -(q**2) / p**2)),
     )
     value = sp.Symbol("a", real=True)
     F = sp.sin(t) * (9 + value - 12 * sp.sin(t) ** 2)
@@ -86,7 +85,8 @@ def continuity(
         r"smoothly, $\theta' = -F_a / F_\theta$. For $\phi_{33} = 1$, $\phi_{31} = a$: $\sin^2 "
         r"\theta = (9 + a) / 12$, and $\mathrm{d}\theta / \mathrm{d}a$ agrees; it is infinite "
         r"exactly at $a = -9$ and $a = 3$, on the deltoid.",
-        sp.simplify((sp.diff(root, value) ** 2 - speed.subs(t, root) ** 2).subs(value, 1)),
+        sp.Derivative(root, value),
+        speed.subs(t, root),
     )
 
 
@@ -108,12 +108,12 @@ def isotropic_vanish(orders: Orders, profile: Any = None) -> Iterator[Step]:
         x * sp.Derivative(f, y) - y * sp.Derivative(f, x),
         shows=Shows.COUNTEREXAMPLE,
     )
-    t_v = tensor_on((x**2 + y**2) ** m, 2 * m)
     yield identity(
         r"Indeed $T v^{k-1} = (x^2 + y^2)^{m - 1} v$: on the circle $T v^{k-1} = v$ for every "
         r"unit vector.",
-        sp.simplify(t_v[0] / (x * (x**2 + y**2) ** (m - 1))),
-        1,
+        sp.Derivative((x**2 + y**2) ** m, x) / (2 * m),
+        (x**2 + y**2) ** (m - 1) * x,
+        over=(x**2 + y**2) ** m,
     )
     coefficients = {
         order: sp.binomial(sp.Rational(1, 2), order // 2) for order in orders if order % 2 == 0
@@ -140,7 +140,7 @@ def tjunction_impossible(orders: Orders, parity: int = 1, f: Any = y**3) -> Iter
     yield identity(
         r"$g(\theta + \pi) = (-1)^k g(\theta) = -g(\theta)$ for $k = 2m + 1$: opposite a strict "
         r"maximum is a strict minimum, never a maximum.",
-        (-1) ** (2 * m + parity),
+        lambda: (-1) ** (2 * m + parity),
         -1,
     )
     counts = real_lines(3, critical(3, form_of_expression(f)))
@@ -152,11 +152,10 @@ def tjunction_impossible(orders: Orders, parity: int = 1, f: Any = y**3) -> Iter
         F=F,
         lines_by_multiplicity=counts,
     )
-    halves = sp.sin(t) * sp.sin(t - sp.pi / 2) * sp.sin(t - sp.pi)
     yield identity(
         r"It is the limit: maxima at $0, 90, 180$ degrees would need $g' = C \sin\theta "
         r"\sin(\theta - 90) \sin(\theta - 180) = C \sin^2\theta \cos\theta$, $g = \frac{C}{3} "
         r"\sin^3\theta$.",
-        sp.expand_trig(halves),
-        sp.diff(sp.sin(t) ** 3 / 3, t),
+        lambda: sp.sin(t) * sp.sin(t - sp.pi / 2) * sp.sin(t - sp.pi),
+        sp.Derivative(sp.sin(t) ** 3 / 3, t),
     )

@@ -43,7 +43,7 @@ def _turned(sign: Callable[[Any], Any]) -> Step:
     return identity(
         r"$v \to -v$ multiplies $x^a y^b$ by $(-1)^{a + b} = (-1)^k$ (equivalently $e^{i n "
         r"\theta}$ by $(-1)^n$, $n = k \bmod 2$); periodicity alone would not give it.",
-        (-1) ** a * (-1) ** b,
+        lambda: (-1) ** a * (-1) ** b,
         sign(a + b),
     )
 
@@ -62,7 +62,7 @@ def parity_even(
     yield identity(
         r"For $k = 2 m$ the factor is 1, so $g$ has the same value and kind at $\theta$ and "
         r"$\theta + \pi$.",
-        sign(2 * half + parity),
+        lambda: sign(2 * half + parity),
         1,
     )
 
@@ -81,7 +81,7 @@ def parity_odd(
     yield identity(
         r"For $k = 2 m + 1$ the factor is $-1$, so a maximum at $\theta$ is a minimum at $\theta "
         r"+ \pi$.",
-        sign(2 * half + parity),
+        lambda: sign(2 * half + parity),
         -1,
     )
 
@@ -115,13 +115,12 @@ def count_2k(
         _unevaluated_angular((x**2 + y**2) ** m),
         shows=Shows.NEEDED,
     )
+    even = sorted({2, *(o for o in orders if o % 2 == 0)})
     yield fact(
         "The same by exact coefficients, for the even orders.",
-        all(
-            critical(o, form_of_expression(constant(o))) == 0
-            for o in {2, *(o for o in orders if o % 2 == 0)}
-        ),
+        all(critical(o, form_of_expression(constant(o))) == 0 for o in even),
         shows=Shows.NEEDED,
+        F={o: str(critical(o, form_of_expression(constant(o)))) for o in even},
     )
     u = sp.Symbol("u", positive=True)
     e = sp.sqrt(u)
@@ -137,7 +136,7 @@ def count_2k(
     yield identity(
         r"$P = u^{(k - N) / 2} Q(u)$ with $N = n_{\max}$ and $\deg Q = (k + N)/2 - (k - N)/2 = "
         r"N$: at most $2 N$ directions, so at most $N$ maxima and $N$ minima, which alternate.",
-        (k + N) / 2 - (k - N) / 2,
+        lambda: (k + N) / 2 - (k - N) / 2,
         N,
     )
     yield from _sturm_hurwitz_lower()
@@ -219,8 +218,8 @@ def polynomial_degree(
     yield identity(
         r"Self-inversive: the coefficients of $P$ at $(k + n)/2$ and at $k - (k + n)/2 = (k - "
         r"n)/2$ are $n \phi_n$ and $-n \overline{\phi_n}$.",
-        -n * sp.conjugate(phi),
-        inversion_sign * sp.conjugate(n * phi),
+        lambda: -n * sp.conjugate(phi),
+        lambda: inversion_sign * sp.conjugate(n * phi),
     )
     yield fact(
         r"$e^{i k \theta} \cdot e^{i n \theta}$ has the even exponent $k + n$, so the polynomial "
@@ -268,16 +267,17 @@ def count_max_min(
         shows=Shows.NEEDED,
     )
     a, b = sp.symbols("a b", integer=True, nonnegative=True)
+    h = sp.Symbol("h", positive=True)
     F = angular(x**a * y**b)
-    turned = sp.powsimp(sp.simplify(F.subs({x: 2 * x, y: 2 * y}) / F))
     yield identity(
         r"Maxima and minima are the sign changes of $g' = F/k!$ on the circle; they alternate, so "
         r"there are as many of each, and with at most $2k$ zeros at most $k$. $F$ is homogeneous "
-        r"of degree $k$ (scaling by 2 gives $2^k$), so $F(-v) = (-1)^k F(v)$: on a half circle "
+        r"of degree $k$ (symbolic exponents), so $F(-v) = (-1)^k F(v)$: on a half circle "
         r"$F$ changes sign an even number of times for even $k$ and an odd number for odd $k$, "
         r"and the full circle has twice as many.",
-        turned,
-        2 ** (a + b),
+        F.subs({x: h * x, y: h * y}),
+        h ** (a + b) * F,
+        over=h ** (a + b) * x**a * y**b,
     )
     generator = random.Random(3)
     found_random = {
@@ -312,7 +312,7 @@ def count_max_min(
     yield identity(
         r"$(\cos N\theta)' = 0$ at $j \pi / N$, where $\cos N\theta = (-1)^j$: $N$ maxima for "
         r"symbolic $N$.",
-        sp.cos(n * _J * sp.pi / n),
+        lambda: sp.cos(n * (_J * sp.pi / n)),
         (-1) ** _J,
     )
 
@@ -533,14 +533,16 @@ def saddles_rosy(
     yield identity(
         r"On the circle $\mathrm{Re}\,(x + i y)^k = \cos k\theta$; $g' = -k \sin k\theta$ "
         r"vanishes at $j \pi / k$.",
-        sp.diff(g, t).subs(at),
+        sp.Subs(sp.Derivative(g, t), t, at[t]),
     )
     yield identity(
-        r"There $\lambda = k!\, g = (-1)^j k!$.", sp.factorial(k) * g.subs(at), value(_J, k)
+        r"There $\lambda = k!\, g = (-1)^j k!$.",
+        lambda: sp.factorial(k) * sp.Subs(g, t, at[t]),
+        value(_J, k),
     )
     yield identity(
         r"$g'' = -k^2 (-1)^j$: maxima for even $j$, a $k$-RoSy; minima for odd $j$.",
-        sp.diff(g, t, 2).subs(at),
+        sp.Subs(sp.Derivative(g, (t, 2)), t, at[t]),
         -(k**2) * value(_J, k) / sp.factorial(k),
     )
     a, b = sp.symbols("a b", real=True)

@@ -40,7 +40,7 @@ def error_order(
         r"Terms with $d \leq K$ are reproduced; the first that is not is $d = K + 1$. A remainder "
         r"of size $r^{K+1}$ gives the same power, because order $k$ of the fit is a linear "
         r"functional of norm $R^{-k}$: the error is $O(R^{K + 1 - k})$.",
-        (d - k).subs(d, K + 1),
+        lambda: (K + 1) - k,
         exponent(K, k),
     )
     yield fact(

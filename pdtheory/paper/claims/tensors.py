@@ -34,13 +34,12 @@ def tensor_contraction(
 ) -> Iterator[Step]:
     m = sp.Symbol("m", integer=True, nonnegative=True)
     a = sp.Function("a")
-    first, any_index = x * a(1 + m) + y * a(m), x * a(m + 1) + y * a(m)
     yield identity(
         r"A component depends only on the number of its indices equal to 1, because any "
         r"permutation of them leaves it alone. If $m$ of the free indices are 1, contracting at "
         r"any place gives $x\,a_{m+1} + y\,a_m$, as contracting at the first place does.",
-        any_index,
-        first,
+        lambda: x * a(m + 1) + y * a(m),
+        lambda: x * a(1 + m) + y * a(0 + m),
     )
     dense = sorted({2, 3, *(o for o in orders if o <= LARGEST_DENSE_ORDER)})
     agree = {
@@ -72,8 +71,11 @@ def tensor_contraction(
     verdict=Verdict.MISPRINT,
 )
 def symmetry_definition(orders: Orders, first_index: int = 1) -> Iterator[Step]:
-    number = k - first_index + 1
-    yield identity(r"The index set $[1, k]$ has $k$ elements, one for each dimension.", number, k)
+    yield identity(
+        r"The index set $[1, k]$ has $k$ elements, one for each dimension.",
+        lambda: k - first_index + 1,
+        k,
+    )
     yield fact(
         r"The printed index set $[0, k]$ has $k + 1$ elements, one more than the array has "
         r"dimensions.",

@@ -1,0 +1,78 @@
+"""``pdtheory verify``."""
+
+import json
+
+import pytest
+import typer
+from typer.testing import CliRunner
+
+from pdtheory.cli.verify import verify
+from pdtheory.errors import InputError
+from pdtheory.paper import claims
+
+QUICK = ["parity-odd", "lemma-gradient"]
+
+
+@pytest.fixture
+def run():
+    app = typer.Typer()
+    app.command()(verify)
+
+    def call(*arguments):
+        return CliRunner().invoke(app, [*arguments, "--quiet"])
+
+    return call
+
+
+def test_table_and_exit_code(run):
+    result = run(*QUICK)
+    assert result.exit_code == 0
+    assert "lemma-gradient" in result.output
+    assert "2 of 2 claims come out as recorded" in result.output
+
+
+def test_json(run):
+    result = run(*QUICK, "--json")
+    entries = json.loads(result.output)
+    assert [entry["id"] for entry in entries] == QUICK
+    assert all(entry["holds"] for entry in entries)
+
+
+def test_orders_reach_the_claims(run):
+    found = json.loads(run("e-characteristic-polynomial", "--orders", "2:5", "--json").output)
+    assert found[0]["scope"] == "orders 2 to 5"
+
+
+def test_a_different_verdict_gives_exit_code_1(run, monkeypatch):
+    from dataclasses import replace
+
+    changed = [replace(claims.claim(QUICK[0]), verdict=claims.Verdict.REFUTED)]
+    monkeypatch.setattr(claims, "CLAIMS", tuple(changed))
+    result = run()
+    assert result.exit_code == 1
+    assert "recorded as refuted" in result.output
+    assert "its steps show: proved" in result.output
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (["no-such-claim"], "no claim 'no-such-claim'"),
+        (["--orders", "1:4"], "between 2 and"),
+        (["--orders", "two"], "cannot read the orders"),
+        (["--report", "paper.docx"], "docx"),
+        (["--report", "nowhere/paper.md"], "nowhere"),
+    ],
+)
+def test_bad_input_is_one_sentence(run, arguments, sentence):
+    result = run(*arguments)
+    assert isinstance(result.exception, InputError | OSError)
+    assert sentence in str(result.exception)
+
+
+def test_report_is_written(run, tmp_path):
+    pytest.importorskip("matplotlib")
+    target = tmp_path / "paper.md"
+    result = run(*QUICK, "--report", str(target))
+    assert result.exit_code == 0
+    assert "### lemma-gradient" in target.read_text(encoding="utf-8")
