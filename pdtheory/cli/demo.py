@@ -78,7 +78,7 @@ def _read(model: Path | None) -> tuple[PointCloud, PointCloud]:
     import synthetic_surfaces
 
     cube = synthetic_surfaces.get("rounded-cube")
-    return cube.sample(CUBE_SAMPLES, method="blue", seed=1), cube.mesh(CUBE_RESOLUTION)
+    return cube.sample(CUBE_SAMPLES, seed=1), cube.mesh(CUBE_RESOLUTION)
 
 
 def _prepare(out: Path) -> None:
