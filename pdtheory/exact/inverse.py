@@ -1,0 +1,325 @@
+"""The inverse problem: Wavejets rows with given directions, and directions that form a RoSy."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from math import factorial
+from typing import Any
+
+import sympy as sp
+
+from pdtheory.conventions import Kind
+from pdtheory.errors import InputError
+from pdtheory.exact.faces import BinaryForm, Face, WavejetsRow, check_order, exact, is_zero
+from pdtheory.exact.strata import count_maxima
+
+Coefficients = list[Any]
+
+
+@dataclass(frozen=True)
+class Realization:
+    """Whether given angles are the maxima of some row, with a certificate or the reason why not.
+
+    Attributes
+    ----------
+    order : int
+        The order k.
+    angles : tuple
+        The angles in degrees, exact, ascending in [0, 360).
+    row : WavejetsRow or None
+        A row whose maxima are exactly these angles; None if there is none.
+    reason : str
+        Why it exists, or why it cannot.
+    """
+
+    order: int
+    angles: tuple[Any, ...]
+    row: WavejetsRow | None
+    reason: str
+
+    @property
+    def is_realizable(self) -> bool:
+        """True if a row exists."""
+        return self.row is not None
+
+
+def realize_maxima(order: int, angles: Sequence[Any]) -> Realization:
+    """Decide whether a set of angles is the set of maxima of a row of one order, and build the row.
+
+    k odd: iff their number is odd and at most k and they interlace with their opposites. k even:
+    iff they come in opposite pairs, at most k/2 of them.
+
+    Parameters
+    ----------
+    order
+        The order k >= 1.
+    angles
+        Angles in degrees, exact; all maxima on the full circle.
+
+    Returns
+    -------
+    Realization
+        The verdict with its certificate.
+
+    Raises
+    ------
+    InputError
+        If the order is below 1, there is no angle, or one is no real number.
+
+    Examples
+    --------
+    >>> realize_maxima(3, [0, 120, 240]).row
+    WavejetsRow(order=3, {1: 0, 3: 1/24})
+    >>> realize_maxima(3, [0, 90, 180]).reason
+    '0 and 180 degrees are opposite, where a maximum of odd order faces a minimum'
+    """
+    k = check_order(order, 1)
+    chosen = _ascending(angles)
+    refusal = _refuse_odd(k, chosen) if k % 2 else _refuse_even(k, chosen)
+    if refusal:
+        return Realization(k, chosen, None, refusal)
+    if k % 2:
+        row = _odd_row(k, chosen)
+        reason = f"the {len(chosen)} angles interlace with their opposites"
+    else:
+        row = _even_row(k, chosen[: len(chosen) // 2])
+        reason = f"the angles are {len(chosen) // 2} opposite pairs, at most {k // 2}"
+    return Realization(k, chosen, row, reason)
+
+
+def _ascending(angles: Sequence[Any]) -> tuple[Any, ...]:
+    values = [exact(a) for a in angles]
+    if not values:
+        raise InputError("No angle is given; give at least one, in degrees.")
+    for a in values:
+        if not a.is_real:
+            raise InputError(f"The angle {a} is not a real number of degrees.")
+    return tuple(sorted({a - 360 * sp.floor(a / 360) for a in values}, key=lambda a: sp.N(a, 30)))
+
+
+def _refuse_odd(order: int, angles: tuple[Any, ...]) -> str | None:
+    for i, a in enumerate(angles):
+        for b in angles[i + 1 :]:
+            if b - a == 180:
+                return (
+                    f"{a} and {b} degrees are opposite, "
+                    "where a maximum of odd order faces a minimum"
+                )
+    if len(angles) % 2 == 0:
+        return f"the number of maxima of odd order is odd, not {len(angles)}"
+    if len(angles) > order:
+        return f"order {order} has at most {order} maxima, not {len(angles)}"
+    if len(angles) == 1:
+        return None
+    # Interlacing: going round, angles and opposites alternate.
+    marked = sorted(
+        [(a, 0) for a in angles] + [((a + 180) % 360, 1) for a in angles],
+        key=lambda pair: sp.N(pair[0], 30),
+    )
+    for (a, first), (b, second) in pairwise([*marked, marked[0]]):
+        if first == second:
+            low, high = (a, b) if not first else ((a + 180) % 360, (b + 180) % 360)
+            return (
+                f"no opposite of another angle lies between {low} and {high} degrees, "
+                "but between two maxima there is a minimum, which is the opposite of a maximum"
+            )
+    return None
+
+
+def _refuse_even(order: int, angles: tuple[Any, ...]) -> str | None:
+    present = set(angles)
+    for a in angles:
+        if (a + 180) % 360 not in present:
+            return f"{a} degrees is given without its opposite, but g of even order has period 180"
+    if len(angles) > order:
+        return f"order {order} has at most {order} maxima, not {len(angles)}"
+    return None
+
+
+def _odd_row(order: int, angles: tuple[Any, ...]) -> WavejetsRow:
+    lines = _through([_unit(a) for a in angles])
+    form = _times_circle(lines, order)
+    row = _integrate(form)
+    # f or -f: at the first angle g'' must be negative, that is F must fall.
+    return row if _slope(form, _unit(angles[0])) < 0 else -row
+
+
+def _even_row(order: int, angles: tuple[Any, ...]) -> WavejetsRow:
+    """Build F = (maxima) (minima) (x^2+y^2)^j with mean zero.
+
+    Two choices of minima, just after and just before the maxima, give means of opposite sign; the
+    combination of both with mean zero still has one sign change in each gap, because a form of
+    degree m has no more than m zeros.
+    """
+    ends = [_unit(a) for a in (*angles, angles[0] + 180)]
+    maxima = _through(ends[:-1])
+    if len(angles) == 1:
+        ((c, s),) = ends[:-1]
+        minima = _through([(-s, c)])
+    else:
+        minima = _minima(maxima, ends)
+    form = _times_circle(_multiply(maxima, minima), order)
+    row = _integrate(form)
+    return row if _slope(form, ends[0]) < 0 else -row
+
+
+def _minima(maxima: Coefficients, ends: list[tuple[Any, Any]]) -> Coefficients:
+    share = sp.Rational(1, 8)
+    while True:
+        first, second = (
+            _through(
+                [
+                    ((1 - part) * a[0] + part * b[0], (1 - part) * a[1] + part * b[1])
+                    for a, b in pairwise(ends)
+                ]
+            )
+            for part in (share, 1 - share)
+        )
+        means = [_mean(_multiply(maxima, m)) for m in (first, second)]
+        if sp.N(means[0], 30) * sp.N(means[1], 30) < 0:
+            return [
+                sp.expand(means[1] * p - means[0] * q) for p, q in zip(first, second, strict=True)
+            ]
+        share /= 2
+
+
+def _unit(degrees: Any) -> tuple[Any, Any]:
+    return sp.cos(sp.pi * degrees / 180), sp.sin(sp.pi * degrees / 180)
+
+
+def _through(vectors: Sequence[tuple[Any, Any]]) -> Coefficients:
+    """Return the form that vanishes along the vectors: the product of c y - s x."""
+    product: Coefficients = [sp.Integer(1)]
+    for c, s in vectors:
+        product = _multiply(product, [-s, c])
+    return product
+
+
+def _multiply(a: Coefficients, b: Coefficients) -> Coefficients:
+    result = [sp.Integer(0)] * (len(a) + len(b) - 1)
+    for i, p in enumerate(a):
+        for j, q in enumerate(b):
+            result[i + j] += p * q
+    return [sp.expand(c) for c in result]
+
+
+def _times_circle(form: Coefficients, order: int) -> BinaryForm:
+    while len(form) - 1 < order:
+        form = _multiply(form, [sp.Integer(1), sp.Integer(0), sp.Integer(1)])
+    return BinaryForm(form)
+
+
+def _mean(form: Coefficients) -> Any:
+    """Return the mean of a form of even order over the circle."""
+    return factorial(len(form) - 1) * BinaryForm(form).row[0]
+
+
+def _slope(form: BinaryForm, v: tuple[Any, Any]) -> Any:
+    """Return the derivative of a form along the circle at v, to 30 digits."""
+    return sp.N(form.angular_derivative()(*v), 30)
+
+
+def _integrate(derivative: BinaryForm) -> WavejetsRow:
+    """Return the row whose derivative along the circle is a form of mean zero."""
+    phi = {}
+    for n, (real, imaginary) in derivative.row.parts.items():
+        if n:
+            # Phi_n = i n phi_n.
+            phi[n] = (imaginary - sp.I * real) / n
+    return WavejetsRow(derivative.order, phi)
+
+
+def rows_with_critical_lines(order: int, angles: Sequence[Any]) -> list[WavejetsRow]:
+    """Return a basis of all rows of an order that have given lines as E-eigenvectors.
+
+    Parameters
+    ----------
+    order
+        The order k >= 1.
+    angles
+        Angles in degrees, exact; a line is an angle modulo 180.
+
+    Returns
+    -------
+    list of WavejetsRow
+        For m <= k distinct lines k + 1 - m rows; the constant row, which has every line, is among
+        them for even k.
+
+    Raises
+    ------
+    InputError
+        If the order is below 1 or an angle is no real number.
+
+    Notes
+    -----
+    F must be the product of the m lines and any form of degree k - m; for even k its mean over the
+    circle must vanish too, as that of every derivative along the circle.
+    """
+    k = check_order(order, 1)
+    lines = sorted({a - 180 * sp.floor(a / 180) for a in _ascending(angles)}, key=sp.N)
+    free = k - len(lines)
+    product = _through([_unit(a) for a in lines])
+    monomials = [[sp.Integer(int(i == j)) for i in range(free + 1)] for j in range(free + 1)]
+    forms = [BinaryForm(_multiply(product, m)) for m in monomials]
+    if k % 2:
+        return [_integrate(f) for f in forms]
+    means = [f.row[0] for f in forms]
+    pivot = next((i for i, m in enumerate(means) if not is_zero(m)), None)
+    rows = [WavejetsRow(k, {0: 1})]
+    for i, (form, mean) in enumerate(zip(forms, means, strict=True)):
+        if pivot is None or is_zero(mean):
+            rows.append(_integrate(form))
+        elif i != pivot:
+            rows.append(_integrate(form * means[pivot] - forms[pivot] * mean))
+    return rows
+
+
+def rosy_kinds(face: Face) -> frozenset[Kind]:
+    """Return which kinds of directions form a k-RoSy: k of them, 360/k degrees apart.
+
+    k odd: maxima and minima, iff phi_n = 0 for n != k and phi_k != 0. k even: the maxima iff, with
+    psi_n = phi_n e^{i n t0} for one maximum t0, psi_k > 0, n psi_n = (k-n) conj(psi_{k-n}) for
+    2 <= n <= k-2, and g'' < 0 at all t0 + 2 pi j / k; both kinds iff phi_n = 0 for n not in {0, k}.
+
+    Parameters
+    ----------
+    face
+        A tensor, form or row of order k >= 2 with real algebraic coefficients.
+
+    Returns
+    -------
+    frozenset of Kind
+        Some of `Kind.MAXIMUM` and `Kind.MINIMUM`.
+    """
+    row = face.row
+    k = check_order(row.order, 2)
+    if k % 2 or row.support == [k]:
+        both = frozenset({Kind.MAXIMUM, Kind.MINIMUM})
+        return both if row.support == [k] else frozenset()
+    found = set()
+    for kind, signed in ((Kind.MAXIMUM, row), (Kind.MINIMUM, -row)):
+        if _maxima_are_rosy(signed):
+            found.add(kind)
+    return frozenset(found)
+
+
+def _maxima_are_rosy(row: WavejetsRow) -> bool:
+    k = row.order
+    size = sp.sqrt(row.squared_modulus(k))
+    if is_zero(size):
+        return False
+    for n in range(2, k - 1, 2):
+        # psi_k > 0 means e^{-i k t0} = phi_k / |phi_k|.
+        defect = sp.expand(n * row[n] * size - (k - n) * row[n - k] * row[k])
+        if not all(is_zero(part) for part in defect.as_real_imag()):
+            return False
+    # Then all t0 + 2 pi j / k are critical. With k maxima all critical points are simple, so that
+    # the second derivative decides.
+    if count_maxima(row) != k:
+        return False
+    start = -sp.arg(row[k]) / k
+    second = row.form.angular_derivative().angular_derivative()
+    angles = (start + 2 * sp.pi * j / k for j in range(k // 2))
+    return all(sp.N(second(sp.cos(a), sp.sin(a)), 30) < 0 for a in angles)

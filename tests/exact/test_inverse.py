@@ -1,0 +1,185 @@
+"""The inverse problem: what is built is found again, and what is refused cannot be."""
+
+import itertools
+
+import numpy as np
+import pytest
+import sympy as sp
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from pdtheory.conventions import Kind
+from pdtheory.errors import InputError
+from pdtheory.exact import WavejetsRow, real_eigenpairs
+from pdtheory.exact.inverse import realize_maxima, rosy_kinds, rows_with_critical_lines
+
+
+def numeric_maxima(row, count=7200):
+    """Angles of the maxima of g by sampling g itself: no part of the exact machinery."""
+    grid = np.arange(count) * 360 / count
+    phi = row.to_complex()
+    g = sum(
+        (1 if n == 0 else 2) * (p * np.exp(1j * n * np.deg2rad(grid))).real for n, p in phi.items()
+    )
+    return grid[(g > np.roll(g, 1)) & (g >= np.roll(g, -1))]
+
+
+def assert_maxima(row, angles):
+    found = numeric_maxima(row)
+    expected = sorted(float(a) % 360 for a in angles)
+    assert len(found) == len(expected)
+    gaps = np.abs(np.sort(found)[:, None] - np.array(expected)[None, :])
+    assert np.minimum(gaps, 360 - gaps).min(axis=0).max() <= 0.051
+
+
+@pytest.mark.parametrize(
+    ("order", "angles"),
+    [
+        (3, [0, 120, 240]),
+        (3, [0, 110, 250]),
+        (3, [10, 100, 250]),
+        (3, [77]),
+        (1, [30]),
+        (5, [0, 110, 250]),
+        (5, [0, 72, 144, 216, 288]),
+        (5, [0, 50, 130, 200, 290]),
+        (2, [20, 200]),
+        (4, [0, 180]),
+        (4, [0, 90, 180, 270]),
+        (4, [0, 30, 180, 210]),
+        (6, [0, 20, 75, 180, 200, 255]),
+        (8, [5, 25, 185, 205]),
+    ],
+)
+def test_realized_maxima_are_found_again(order, angles):
+    result = realize_maxima(order, angles)
+    assert result.is_realizable, result.reason
+    assert_maxima(result.row, angles)
+
+
+@settings(deadline=None, max_examples=25)
+@given(st.sets(st.integers(0, 23), min_size=3, max_size=3))
+def test_triples_of_order_three_are_maxima_iff_all_gaps_are_below_180(steps):
+    angles = sorted(15 * s for s in steps)
+    gaps = [(b - a) % 360 for a, b in zip(angles, angles[1:] + angles[:1], strict=True)]
+    result = realize_maxima(3, angles)
+    assert result.is_realizable == all(gap < 180 for gap in gaps)
+    if result.is_realizable:
+        pairs = real_eigenpairs(result.row)
+        assert [p.angle_degrees(15) for p in pairs.maxima] == pytest.approx(angles)
+
+
+def test_three_lines_fix_order_three_by_the_closed_formula():
+    angles = [0, 110, 250]
+    row = realize_maxima(3, angles).row
+    t = [sp.pi * a / 180 for a in angles]
+    phase = sp.exp(-sp.I * sum(t))
+    p3 = phase / 24
+    p1 = -phase / 8 * sum(sp.exp(2 * sp.I * a) for a in t)
+    assert abs(sp.N(row[1] / row[3] - p1 / p3, 30)) < 1e-20
+    assert abs(sp.im(sp.N(row[3] / p3, 30))) < 1e-20
+
+
+@pytest.mark.parametrize(
+    ("order", "angles", "reason"),
+    [
+        (3, [0, 90, 180], "opposite"),
+        (3, [0, 90], "odd, not 2"),
+        (3, [0, 10, 20], "between"),
+        (3, [0, 70, 140, 210, 280], "at most 3"),
+        (5, [0, 10, 20, 120, 240], "between"),
+        (4, [0, 90], "without its opposite"),
+        (4, [0, 20, 40, 180, 200, 220], "at most 4"),
+    ],
+)
+def test_refused_with_the_reason(order, angles, reason):
+    result = realize_maxima(order, angles)
+    assert not result.is_realizable
+    assert reason in result.reason
+
+
+@pytest.mark.parametrize(("order", "angles"), [(3, [0, 10, 20]), (5, [0, 10, 20, 120, 240])])
+def test_refused_sets_have_no_row(order, angles):
+    """Every row with these lines, over a net of the family, has another set of maxima."""
+    basis = rows_with_critical_lines(order, angles)
+    rng = np.random.default_rng(0)
+    for weights in itertools.chain([np.ones(len(basis))], rng.normal(size=(20, len(basis)))):
+        for sign in (1, -1):
+            phi = {n: sum(sign * w * complex(row[n]) for w, row in zip(weights, basis, strict=True))
+                   for n in basis[0].parts}  # fmt: skip
+            found = numeric_maxima(WavejetsRow(order, phi), 3600)
+            expected = np.array(sorted(angles))
+            assert len(found) != len(expected) or np.abs(np.sort(found) - expected).max() > 0.2
+
+
+@pytest.mark.parametrize(
+    ("order", "angles", "dimension"),
+    [
+        (3, [0, 45, 90], 1),
+        (3, [0, 45, 90, 180, 225], 1),
+        (3, [0, 30, 60, 120], 0),
+        (3, [0], 3),
+        (4, [0, 45], 3),
+        (4, [0, 45, 90], 2),
+        (5, [0, 60, 120], 3),
+    ],
+)
+def test_family_of_given_critical_lines(order, angles, dimension):
+    rows = rows_with_critical_lines(order, angles)
+    assert len(rows) == dimension
+    for row in rows:
+        derivative = row.form.angular_derivative()
+        for angle in angles:
+            c, s = sp.cos(sp.pi * angle / 180), sp.sin(sp.pi * angle / 180)
+            assert sp.simplify(derivative(c, s)) == 0
+
+
+BOTH = {Kind.MAXIMUM, Kind.MINIMUM}
+
+
+@pytest.mark.parametrize(
+    ("order", "phi", "kinds"),
+    [
+        (3, {3: 1 + 2 * sp.I}, BOTH),
+        (3, {1: 1, 3: 1}, set()),
+        (5, {3: 1}, set()),
+        (4, {0: 7, 4: sp.I}, BOTH),
+        (4, {2: 1, 4: 1}, {Kind.MAXIMUM}),
+        (4, {2: 1, 4: -1}, {Kind.MINIMUM}),
+        (4, {2: sp.I, 4: 1}, {Kind.MINIMUM}),
+        (4, {2: 4, 4: 1}, set()),
+        (4, {2: 1 + sp.I, 4: 1}, set()),
+        (4, {2: 1}, set()),
+        (2, {0: 3, 2: sp.I}, BOTH),
+        (2, {0: 3}, set()),
+        (6, {2: 2, 4: 1, 6: 1}, {Kind.MAXIMUM}),
+        (6, {2: 1, 4: 1, 6: 1}, set()),
+        (8, {8: 3}, BOTH),
+    ],
+)
+def test_rosy_by_the_corrected_theorem(order, phi, kinds):
+    row = WavejetsRow(order, phi)
+    assert rosy_kinds(row) == kinds
+    # Independently, from the exact directions.
+    pairs = real_eigenpairs(row)
+    for kind in BOTH:
+        angles = [float(p.angle_degrees()) for p in pairs.of_kind(kind)]
+        gaps = np.diff([*angles, angles[0] + 360]) if angles else np.array([])
+        even = len(angles) == order and np.allclose(gaps, 360 / order)
+        assert even == (kind in kinds)
+
+
+def test_rosy_turned():
+    row = WavejetsRow(4, {2: 1, 4: 1}).turn_frame(cosine=sp.Rational(3, 5), sine=sp.Rational(4, 5))
+    assert rosy_kinds(row) == {Kind.MAXIMUM}
+
+
+def test_bad_input():
+    with pytest.raises(InputError, match="No angle"):
+        realize_maxima(3, [])
+    with pytest.raises(InputError, match="order is 0"):
+        realize_maxima(0, [1])
+    with pytest.raises(InputError, match="not a real"):
+        realize_maxima(3, [sp.I])
+    with pytest.raises(InputError, match="order is 1"):
+        rosy_kinds(WavejetsRow(1, {1: 1}))
