@@ -43,7 +43,7 @@ class Cone:
     Examples
     --------
     >>> Cone.ridge().fourier(2)
-    -2/(3*pi)
+    2/(3*pi)
     """
 
     rays: tuple[tuple[Any, Any], ...]

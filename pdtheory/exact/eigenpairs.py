@@ -150,7 +150,7 @@ class EigenPair:
         if self.vanishing or degree <= LARGEST_TEXT:
             text = self.eigenvalue_number.text(digits)
             factor = self._numbers.factor
-            return text if factor == 1 else f"({factor}) times {text}"
+            return text if factor == 1 else f"{factor} times {text}"
         return f"a number in {self.eigenvalue_enclosure(digits).text(digits)}"
 
     def _enclose_eigenvalue(self, bits: int, with_factor: bool = True) -> Enclosure:

@@ -222,12 +222,12 @@ def _slope(form: BinaryForm, v: tuple[Any, Any]) -> Any:
 
 
 def _integrate(derivative: BinaryForm) -> WavejetsRow:
-    """Return the row whose derivative along the circle is a form of mean zero."""
-    phi = {}
+    """Return the row with g' = F on the circle, for a form F of mean zero."""
+    phi, scale = {}, factorial(derivative.order)
     for n, (real, imaginary) in derivative.row.parts.items():
         if n:
-            # Phi_n = i n phi_n.
-            phi[n] = (imaginary - sp.I * real) / n
+            # F has the coefficients k! Phi_n in the convention of rows, and they are i n phi_n.
+            phi[n] = scale * (imaginary - sp.I * real) / n
     return WavejetsRow(derivative.order, phi)
 
 

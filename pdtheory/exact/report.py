@@ -8,6 +8,8 @@ from typing import Any
 import sympy as sp
 
 from pdtheory.errors import InputError
+from pdtheory.exact.characteristic import characteristic_polynomial
+from pdtheory.exact.complexpairs import complex_eigenpairs
 from pdtheory.exact.eigenpairs import EigenPairs, real_eigenpairs
 from pdtheory.exact.faces import MAX_ORDER, BinaryForm, Face
 from pdtheory.exact.series import taylor_forms
@@ -106,6 +108,62 @@ def order_report(pairs: EigenPairs) -> dict[str, Any]:
 def report(faces: Iterable[Face]) -> dict[str, Any]:
     """Return several orders as plain data, keyed by order."""
     return {"orders": {str(f.order): order_report(real_eigenpairs(f)) for f in faces}}
+
+
+def complex_report(face: Face) -> dict[str, Any]:
+    """Return the complex E-eigenpairs of one order as plain data, [re, im] for every number."""
+    pairs = complex_eigenpairs(face)
+    return {
+        "classes": [
+            {
+                "vector": [_split(c) for c in p.vector(17)],
+                "eigenvalue": _split(p.eigenvalue(17)),
+                "real": p.is_real,
+                "multiplicity": p.multiplicity,
+            }
+            for p in pairs
+        ],
+        "isotropic_multiplicity": pairs.isotropic_multiplicity,
+    }
+
+
+def _split(value: Any) -> list[float]:
+    number = complex(value)
+    return [number.real, number.imag]
+
+
+def characteristic_report(face: Face) -> dict[str, Any]:
+    """Return the E-characteristic polynomial of one order as plain data."""
+    psi = characteristic_polynomial(face)
+    return {
+        "polynomial": sp.sstr(psi.polynomial.as_expr()),
+        "factors": [[sp.sstr(p.as_expr()), m] for p, m in psi.factors()],
+        "irregular": psi.is_irregular,
+    }
+
+
+def latex_pairs(pairs: EigenPairs) -> str:
+    """Return the real E-eigenpairs of one order as a LaTeX array."""
+    if pairs.status != "ok":
+        return rf"\[ \text{{order {pairs.order}: {pairs.status}}} \]"
+    rows = []
+    for p in pairs:
+        angle = sp.sstr(p.angle_degrees(8))
+        if p.tangent is None or p.tangent.radical is not None:
+            vector = ", ".join(sp.latex(c) for c in p.vector)
+        else:
+            vector = rf"\cos {angle}^\circ, \sin {angle}^\circ"
+        number = p.eigenvalue_number
+        value = (
+            sp.latex(p.eigenvalue)
+            if number.radical is not None
+            else sp.sstr(p.eigenvalue_float(12))
+        )
+        kind = rf"\text{{{p.kind.label}}}"
+        rows.append(rf"  {angle}^\circ & ({vector}) & {value} & {kind} & {p.multiplicity} \\")
+    head = r"  \theta & v & \lambda & \text{kind} & \text{mult.} \\ \hline"
+    body = "\n".join(rows)
+    return f"\\[ \\begin{{array}}{{rcccc}}\n{head}\n{body}\n\\end{{array}} \\]"
 
 
 def short(expression: Any, length: int = 60) -> str:
