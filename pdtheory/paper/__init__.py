@@ -1,1 +1,1 @@
-
+"""The paper, recomputed: its statements and its figures."""

@@ -1,0 +1,105 @@
+"""Scans: found in the folders given, in the cache, or fetched where there is a network."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Final
+
+from pdtheory.errors import FileAccessError
+from pdtheory.io import read_cloud
+from pdtheory.paper.figures.outcome import Job
+from pdtheory.pointset.cloud import PointCloud
+
+#: Environment variable that names a folder of scans.
+VARIABLE: Final = "PDTHEORY_MODELS"
+
+_SOURCE: Final = "https://raw.githubusercontent.com/alecjacobson/common-3d-test-models/master/"
+
+#: File, SHA-256 and path at the source, by name.
+KNOWN: Final = {
+    "armadillo": (
+        "armadillo.obj",
+        "c007ebd11e541a2b1ab86a4c376653579281265f2c6c786a4a7bf47ba84d6879",
+        "data/armadillo.obj",
+    ),
+    "fandisk": (
+        "fandisk.obj",
+        "ea5bab2fbf545b1915f0d9faf6cc61ff8c18e0d8174ad61f8e35de15d8f6e3f8",
+        "data/fandisk.obj",
+    ),
+    "igea": (
+        "igea.ply",
+        "8888e96f2fb8c69dd3d328554c9f91f0770379b8a13e50224300ca48c44cc1a6",
+        "data/igea.ply",
+    ),
+    "rocker-arm": (
+        "rocker-arm.obj",
+        "590257e6d01e689354821d807854306c3bfbb02d9cca73404d5a4924f105c287",
+        "data/rocker-arm.obj",
+    ),
+}
+
+#: Suffixes under which a scan of one's own is looked for.
+_SUFFIXES: Final = (".ply", ".obj", ".off", ".stl")
+
+
+def find(name: str, folder: Path | None = None) -> Path:
+    """Return the path of a scan.
+
+    Parameters
+    ----------
+    name
+        Name without suffix, such as ``armadillo``, or ``david`` for a scan that is not public.
+    folder
+        Looked at first; then the folder in the environment variable ``PDTHEORY_MODELS``, then the
+        cache, then the network.
+
+    Raises
+    ------
+    FileAccessError
+        If it is nowhere; the sentence says where it was looked for.
+    """
+    folders = [folder] if folder is not None else []
+    if os.environ.get(VARIABLE):
+        folders.append(Path(os.environ[VARIABLE]))
+    for place in folders:
+        for suffix in _SUFFIXES:
+            path = place / f"{name}{suffix}"
+            if path.is_file():
+                return path
+    fetched = _fetch(name)
+    if fetched is not None:
+        return fetched
+    looked = ", ".join(str(place) for place in folders) or "no folder"
+    raise FileAccessError(
+        f"the scan {name} was not found (looked in {looked}, the cache and the network); give its "
+        f"folder with --models or {VARIABLE}."
+    )
+
+
+def load(name: str, job: Job) -> PointCloud:
+    """Read a scan, as a mesh."""
+    return read_cloud(find(name, job.models))
+
+
+def _fetch(name: str) -> Path | None:
+    """Return a known scan from the cache or the network, None if that is not to be had."""
+    if name not in KNOWN:
+        return None
+    try:
+        import pooch
+    except ImportError:
+        return None
+    file, digest, remote = KNOWN[name]
+    try:
+        found = pooch.retrieve(
+            _SOURCE + remote,
+            known_hash=f"sha256:{digest}",
+            fname=file,
+            path=pooch.os_cache("pdtheory"),
+        )
+    except (OSError, ValueError):
+        # No network, no room, or another file under the name: the scan is absent, and said to be.
+        return None
+    return Path(found)
