@@ -177,7 +177,13 @@ class FlintEngine:
 
 def _dyadic(value: Any) -> Fraction:
     mantissa, exponent = (int(part) for part in value.man_exp())
-    return Fraction(mantissa) * Fraction(2) ** exponent
+    return _power_of_two(mantissa, exponent)
+
+
+def _power_of_two(mantissa: int, exponent: int) -> Fraction:
+    if exponent >= 0:
+        return Fraction(mantissa << exponent)
+    return Fraction(mantissa, 1 << -exponent)
 
 
 class SympyEngine:
@@ -268,7 +274,7 @@ def _fraction(value: Any) -> Fraction:
 
 def _binary(value: Any) -> Fraction:
     sign, mantissa, exponent, _ = value._mpf_
-    return Fraction(-int(mantissa) if sign else int(mantissa)) * Fraction(2) ** int(exponent)
+    return _power_of_two(-int(mantissa) if sign else int(mantissa), int(exponent))
 
 
 @cache

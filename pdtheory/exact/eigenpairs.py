@@ -293,7 +293,8 @@ def real_eigenpairs(face: Face) -> EigenPairs:
     derivative = form.angular_derivative()
     if derivative.is_zero:
         return EigenPairs(form, "isotropic", ())
-    zeros = {root.value for root in form_roots(form.coefficients)}
+    # f and its derivative along the circle vanish together at the multiple zeros of f.
+    zeros = {root.value for root in form_roots(form.coefficients, least_multiplicity=2)}
     half = _half_circle(derivative)
     pairs = [
         EigenPair(

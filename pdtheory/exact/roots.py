@@ -116,6 +116,15 @@ class Coefficients:
 
     def intervals(self, bits: int) -> list[Any]:
         """Return interval numbers for the coefficients over the factor (inside `precision`)."""
+        if bits not in self._intervals:
+            self._intervals[bits] = self._enclose(bits)
+        return self._intervals[bits]
+
+    @cached_property
+    def _intervals(self) -> dict[int, list[Any]]:
+        return {}
+
+    def _enclose(self, bits: int) -> list[Any]:
         number = engine().interval
         if self.rationals is not None:
             return [number(Enclosure(r, r)) for r in self.rationals]
@@ -138,7 +147,7 @@ def _rationals(leading_first: Sequence[Any]) -> list[Any]:
     return [sp.Rational(int(c.numerator), int(c.denominator)) for c in leading_first][::-1]
 
 
-def form_roots(coefficients: Sequence[Any]) -> list[Root]:
+def form_roots(coefficients: Sequence[Any], least_multiplicity: int = 1) -> list[Root]:
     """Return all real zeros t = y/x of a binary form, ascending, the one at infinity last.
 
     Over Q the polynomial f(1, t) is factored, so that every root comes with its minimal polynomial
@@ -150,6 +159,8 @@ def form_roots(coefficients: Sequence[Any]) -> list[Root]:
     ----------
     coefficients
         Those of x^k, x^(k-1) y, ..., y^k as SymPy expressions, not all zero.
+    least_multiplicity
+        Leave out the zeros of a lower multiplicity.
 
     Raises
     ------
@@ -163,22 +174,27 @@ def form_roots(coefficients: Sequence[Any]) -> list[Root]:
         roots = [
             (RealAlgebraic(p, i), multiplicity)
             for p, multiplicity in engine().factor(polynomial)
+            if multiplicity >= least_multiplicity
             for i in range(len(real_roots(p, FIRST_BITS)))
         ]
     else:
-        degree, roots = _algebraic_roots(numbers)
+        degree, roots = _algebraic_roots(numbers, least_multiplicity)
     found = [Root(*pair) for pair in _ascending(roots)]
     at_infinity = len(coefficients) - 1 - degree
-    return [*found, Root(None, at_infinity)] if at_infinity else found
+    return [*found, Root(None, at_infinity)] if at_infinity >= least_multiplicity else found
 
 
-def _algebraic_roots(numbers: Coefficients) -> tuple[int, list[tuple[RealAlgebraic, int]]]:
+def _algebraic_roots(
+    numbers: Coefficients, least_multiplicity: int
+) -> tuple[int, list[tuple[RealAlgebraic, int]]]:
     field, elements = numbers.field_elements
     poly = sp.Poly.from_list(elements[::-1], _T, domain=field)
     if field.is_QQ:
         poly = poly.set_domain(sp.QQ)
     roots = []
     for part, multiplicity in poly.sqf_list()[1]:
+        if multiplicity < least_multiplicity:
+            continue
         norm = part if field.is_QQ else part.norm()
         for candidate, _ in engine().factor(primitive(_fractions(norm))):
             minimal = sp.Poly(candidate[::-1], _T, domain=field)
