@@ -7,13 +7,16 @@ PYTHON = $(shell $(UV) python find --system --no-python-downloads '>=3.11,<3.12'
 	|| $(UV) python find --system --no-python-downloads '>=3.13,<3.14' 2>/dev/null || echo 3.13)
 RUN = $(UV) run --quiet --python "$(PYTHON)" --extra blender
 
-.PHONY: demo test lint check slow format
+.PHONY: demo test lint slow format addon
 
 demo: $(UV)  ## the main job, from a scan to a picture: make demo [MODEL=path]
 	$(RUN) pdtheory demo $(if $(MODEL),--model "$(MODEL)")
 
 test: lint  ## lint, types, layers and the default tests
 	$(RUN) pytest
+
+addon: $(UV)  ## the zips of the Blender extension, with their wheels, into dist/
+	$(RUN) pdtheory addon build
 
 slow: $(UV)  ## the long checks
 	$(RUN) pytest -m slow

@@ -9,11 +9,13 @@ import typer
 from typer.core import TyperGroup
 
 from pdtheory import __version__
+from pdtheory.cli.addon import app as addon
 from pdtheory.cli.cone import cone
 from pdtheory.cli.demo import demo
 from pdtheory.cli.draw import draw
 from pdtheory.cli.eigen import eigen
 from pdtheory.cli.estimate import estimate
+from pdtheory.cli.inverse import inverse
 from pdtheory.cli.sample import sample, surfaces
 from pdtheory.cli.verify import verify
 from pdtheory.errors import PdtheoryError
@@ -61,8 +63,9 @@ def _main(
     pass
 
 
-for command in (demo, estimate, draw, sample, surfaces, cone, verify):
+for command in (demo, estimate, draw, sample, surfaces, inverse, cone, verify):
     app.command(command.__name__)(command)
+app.add_typer(addon, name="addon")
 # A formula may begin with a minus sign and is no option then.
 app.command("eigen", context_settings={"ignore_unknown_options": True})(eigen)
 
