@@ -21,7 +21,7 @@ SHORT: Final = 48
 #: Longest text of a minimal polynomial that is shown.
 LONG: Final = 400
 #: Bits with which work starts, and where it is given up (a comparison that never ends).
-FIRST_BITS: Final = 96
+FIRST_BITS: Final = 112
 LAST_BITS: Final = 1 << 20
 
 _T = sp.Symbol("t")

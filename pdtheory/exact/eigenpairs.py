@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, lru_cache, partial
 from typing import Any, Literal
 
 import sympy as sp
@@ -85,7 +85,7 @@ class EigenPair:
         if tangent is None or tangent.radical is None:
             return None
         polynomial = cosine_squared_polynomial(tangent.polynomial)
-        return RealAlgebraic.select(polynomial, self._of_tangent(lambda t: 1 / (1 + t * t))).radical
+        return RealAlgebraic.select(polynomial, partial(_cosine_squared, tangent)).radical
 
     @cached_property
     def eigenvalue_number(self) -> RealAlgebraic:
@@ -117,8 +117,8 @@ class EigenPair:
         sign = self.tangent.sign()
         if sign == 0:
             return Enclosure(Fraction(turn), Fraction(turn))
-        enclose = self._of_tangent(engine().atan_degrees)
-        return _narrow(lambda bits: enclose(bits).shift(turn + (180 if sign < 0 else 0)), digits)
+        tangent, turn = self.tangent, turn + (180 if sign < 0 else 0)
+        return _narrow(lambda bits: _angle(tangent, bits).shift(turn), digits)
 
     def eigenvalue_enclosure(self, digits: int = 15) -> Enclosure:
         """Return an enclosure of lambda of width at most 10^-digits times max(1, |lambda|)."""
@@ -156,33 +156,48 @@ class EigenPair:
     def _enclose_eigenvalue(self, bits: int, with_factor: bool = True) -> Enclosure:
         if self.vanishing:
             return Enclosure(Fraction(0), Fraction(0))
-        order = len(self._numbers.expressions) - 1
-        turn = -1 if self.opposite else 1
-        with engine().precision(bits):
-            coefficients = self._numbers.intervals(bits)
-            if self.tangent is None:
-                value = coefficients[-1]
-            else:
-                bounds = self.tangent.at_precision(bits)
-                turn = -turn if self.tangent.sign() < 0 else turn
-                t = engine().interval(bounds)
-                square = 1 + t * t
-                value = horner(coefficients, t) / square ** (order // 2)
-                if order % 2:
-                    value = value / engine().sqrt(square)
-            if with_factor and self._numbers.factor != 1:
-                value = value * self._numbers.factor_interval(bits)
-            return engine().enclosure(value * turn**order)
+        value = _value(self._numbers, self.tangent, bits, with_factor)
+        turned = self.opposite
+        if self.tangent is not None and self.tangent.sign() < 0:
+            turned = not turned
+        odd = len(self._numbers.expressions) % 2 == 0
+        return value.flip() if turned and odd else value
 
-    def _of_tangent(self, function: Callable[[Any], Any]) -> Callable[[int], Enclosure]:
-        tangent = self.tangent
-        assert tangent is not None
 
-        def enclose(bits: int) -> Enclosure:
-            with engine().precision(bits):
-                return engine().enclosure(function(engine().interval(tangent.at_precision(bits))))
+def _angle(tangent: RealAlgebraic, bits: int) -> Enclosure:
+    """Return an enclosure of atan(t) in degrees."""
+    with engine().precision(bits):
+        t = engine().interval(tangent.at_precision(bits))
+        return engine().enclosure(engine().atan_degrees(t))
 
-        return enclose
+
+def _cosine_squared(tangent: RealAlgebraic, bits: int) -> Enclosure:
+    """Return an enclosure of 1 / (1 + t^2)."""
+    with engine().precision(bits):
+        t = engine().interval(tangent.at_precision(bits))
+        return engine().enclosure(1 / (1 + t * t))
+
+
+# A pair and its opposite ask for the same value one after the other.
+@lru_cache(maxsize=256)
+def _value(
+    numbers: Coefficients, tangent: RealAlgebraic | None, bits: int, with_factor: bool
+) -> Enclosure:
+    """Return an enclosure of f(v) for v = (1, t) / sqrt(1 + t^2), or (0, 1)."""
+    order = len(numbers.expressions) - 1
+    with engine().precision(bits):
+        coefficients = numbers.intervals(bits)
+        if tangent is None:
+            value = coefficients[-1]
+        else:
+            t = engine().interval(tangent.at_precision(bits))
+            square = 1 + t * t
+            value = horner(coefficients, t) / square ** (order // 2)
+            if order % 2:
+                value = value / engine().sqrt(square)
+        if with_factor and numbers.factor != 1:
+            value = value * numbers.factor_interval(bits)
+        return engine().enclosure(value)
 
 
 def _narrow(enclose: Callable[[int], Enclosure], digits: int) -> Enclosure:
