@@ -12,7 +12,16 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from pdtheory.conventions import Kind
-from pdtheory.exact import BinaryForm, EigenPairs, SymmetricTensor, WavejetsRow
+from pdtheory.exact import (
+    BinaryForm,
+    EigenPairs,
+    SymmetricTensor,
+    WavejetsRow,
+    characteristic_polynomial,
+    complex_eigenpairs,
+    count_maxima,
+)
+from pdtheory.exact.strata import order3_discriminant, order4_discriminant
 from pdtheory.testing.profiles import examples
 from pdtheory.testing.strategies import any_forms, forms, forms_with_repeated_roots
 
@@ -51,7 +60,7 @@ def _numbers(pairs: EigenPairs) -> list[tuple[Any, Any, Kind]]:
 
 
 @examples
-@given(any_forms(max_order=9))
+@given(any_forms(max_order=7))
 def test_theorem_as_an_identity(form: BinaryForm) -> None:
     """|v|^2 T v^(k-1) - (T v^k) v = (F / k) (-y, x), coefficient by coefficient."""
     k = form.order
@@ -149,6 +158,38 @@ def test_sturm_hurwitz(form: BinaryForm) -> None:
 
 @examples
 @given(any_forms())
+def test_sturm_counts(form: BinaryForm) -> None:
+    """Counting by Sturm sequences finds as many maxima as isolating the roots does."""
+    pairs = form.eigenpairs()
+    assume(_lists_pairs(pairs))
+    assert count_maxima(form) == len(pairs.maxima)
+
+
+@examples
+@given(st.one_of(forms(min_order=3, max_order=4), forms(min_order=3, max_order=4, extreme=True)))
+def test_discriminants(form: BinaryForm) -> None:
+    """Order 3 has three maxima exactly if D3 < 0, order 4 has four exactly if D4 < 0."""
+    pairs = form.eigenpairs()
+    assume(_lists_pairs(pairs))
+    discriminant = {3: order3_discriminant, 4: order4_discriminant}[form.order]
+    assert (len(pairs.maxima) == form.order) == bool(discriminant(form) < 0)
+
+
+@examples
+@given(forms(min_order=2, max_order=5))
+def test_eigenvalues_are_characteristic_roots(form: BinaryForm) -> None:
+    """Every real E-eigenvalue is a root of psi, exactly; n_max classes are complex E-eigenpairs."""
+    pairs = form.eigenpairs()
+    assume(_lists_pairs(pairs))
+    psi = characteristic_polynomial(form).polynomial
+    for pair in pairs:
+        minimal = sp.Poly(pair.eigenvalue_number.polynomial[::-1], psi.gen)
+        assert sp.rem(psi, minimal, domain="QQ").is_zero
+    assert complex_eigenpairs(form).count == form.row.support[-1]
+
+
+@examples
+@given(any_forms())
 def test_interlacing(form: BinaryForm) -> None:
     """Around the circle maxima and minima alternate; for odd order maxima face minima."""
     kinds = [pair.kind for pair in form.eigenpairs() if pair.kind is not Kind.INFLECTION]
@@ -191,7 +232,7 @@ def test_rotation(form: BinaryForm, turn: tuple[Any, Any]) -> None:
 
 
 @examples
-@given(any_forms(max_order=14))
+@given(any_forms(max_order=7))
 def test_lemma(form: BinaryForm) -> None:
     """The gradient of T v^k is k T v^(k-1)."""
     k = form.order

@@ -7,7 +7,15 @@ import mpmath
 import pytest
 import sympy as sp
 
-from pdtheory.exact import BinaryForm, WavejetsRow, cone_coefficient
+from pdtheory.exact import (
+    BinaryForm,
+    WavejetsRow,
+    characteristic_polynomial,
+    cone_coefficient,
+)
+from pdtheory.exact.strata import order3_discriminant, order4_discriminant
+from pdtheory.paper.claims.corrected_counts import d3, d4
+from pdtheory.paper.claims.corrected_pairs import psi_value
 from pdtheory.paper.claims.fits import basis, fit, gaussian_moment, gaussian_values, uniform_moment
 from pdtheory.paper.claims.kit import (
     circle_point,
@@ -39,6 +47,30 @@ def test_sturm_counts_agree_with_certified_eigenpairs(order):
         row = random_row(order, generator)
         pairs = _row(order, row).eigenpairs()
         assert count_maxima(order, form_of_row(order, row)) == len(pairs.maxima)
+
+
+def test_discriminants_agree():
+    generator = random.Random(5)
+    for _ in range(20):
+        for order, ours, theirs in ((3, d3, order3_discriminant), (4, d4, order4_discriminant)):
+            row = random_row(order, generator)
+            low, high = (
+                sp.Rational(row[n][0]) + sp.I * sp.Rational(row[n][1]) for n in (order - 2, order)
+            )
+            value = ours(low, high, sp.conjugate(low), sp.conjugate(high))
+            assert sp.expand(value) == theirs(_row(order, row))
+
+
+@pytest.mark.parametrize("order", [2, 3, 4, 5, 6])
+def test_characteristic_polynomials_agree_up_to_a_factor(order):
+    coefficients = [3, -1, 4, 1, -5, 9, -2][: order + 1]
+    polynomial = characteristic_polynomial(BinaryForm(coefficients)).polynomial
+    p = form_of_expression(sum(c * x ** (order - j) * y**j for j, c in enumerate(coefficients)))
+    ratios = {
+        sp.Rational(str(psi_value(order, p, value))) / polynomial.eval(value)
+        for value in range(10, 15)
+    }
+    assert len(ratios) == 1
 
 
 def test_rows_become_the_same_forms():

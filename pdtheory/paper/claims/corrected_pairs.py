@@ -122,7 +122,7 @@ def _on_isotropic(p: Any) -> Any:
     return parts[0] ** 2 + parts[1] ** 2
 
 
-def _psi(order: int, p: Any, value: Any) -> Any:
+def psi_value(order: int, p: Any, value: Any) -> Any:
     """Return psi(value) from Qi's definition, up to a constant that depends on the order only.
 
     Even order: the resultant of the two components of T v^(k-1) - lambda (v.v)^((k-2)/2) v. Odd
@@ -183,7 +183,7 @@ def e_characteristic_polynomial(
             # lambda = a_k would lower a degree; whole numbers above 9 avoid it.
             bound = 2 * (order - 1) if order % 2 == 0 else 4 * (order - 1)
             nodes = range(10, 10 + bound + 1)
-            psi = [_psi(order, p, value) for value in nodes]
+            psi = [psi_value(order, p, value) for value in nodes]
             reduced = [_reduced(order, p, value) for value in nodes]
             constants.setdefault(order, set()).update(
                 a * isotropic ** power(order) / b for a, b in zip(psi, reduced, strict=True)
@@ -261,9 +261,9 @@ def irregular_tensors(orders: Orders, depth: int = 2) -> Iterator[Step]:
     for order in (o for o in orders if o >= 4):
         p = _generic(order - 2 * depth, generator) * square**depth if order >= 2 * depth else None
         if p is not None:
-            vanishing[order] = all(_psi(order, p, value) == 0 for value in (10, 11, 12))
+            vanishing[order] = all(psi_value(order, p, value) == 0 for value in (10, 11, 12))
         regular = _generic(order - 2, generator) * square
-        others[order] = any(_psi(order, regular, value) != 0 for value in (10, 11, 12))
+        others[order] = any(psi_value(order, regular, value) != 0 for value in (10, 11, 12))
     yield fact(
         r"$\psi = 0$ for random multiples of $(x^2 + y^2)^2$, at three values of $\lambda$, and "
         r"not for multiples of $x^2 + y^2$ alone (exact resultants).",

@@ -38,6 +38,7 @@ _MONOMIAL = x**i * y ** (k - i)
     statement=r"The linear term is $\nabla f(0)^T v$, the gradient; the normal of the graph is "
     r"$(-\nabla f, 1) / \sqrt{1 + |\nabla f|^2}$.",
     verdict=Verdict.REFUTED,
+    scope="orders 1 and 2",
 )
 def taylor_first_terms(
     orders: Orders, printed: Callable[[Any], Any] | None = None, corrected: bool = True

@@ -130,6 +130,7 @@ def cube_edge_order3(orders: Orders, turned_sign: int = 1) -> Iterator[Step]:
     statement=r"Only its anisotropic part $\phi_{2,\pm 2}$ does, by the three-fold symmetry; $g_2 "
     r"= \phi_{2,0}$ is a constant that is not 0.",
     verdict=Verdict.REFUTED,
+    scope="order 2",
 )
 def cube_corner_order2(orders: Orders, fold: int = 3) -> Iterator[Step]:
     angles = [sp.Rational(2 * j, fold) * sp.pi for j in range(fold)]

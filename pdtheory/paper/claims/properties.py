@@ -324,6 +324,7 @@ def count_max_min(
     statement=r"They are if $\nabla f(0) = 0$; without it they agree for every $H$ only then, and "
     r"for one $H \neq 0$ exactly when $\nabla f$ is zero or an eigenvector of $H$.",
     verdict=Verdict.PROVED_STRONGER,
+    scope="order 2",
 )
 def order2_curvature(
     orders: Orders, gradient: tuple[Any, Any] = (1, 0), hessian: tuple[Any, Any, Any] = (0, 1, 0)
