@@ -9,6 +9,7 @@ import pytest
 from pdtheory.errors import InputError, MissingDependencyError
 from pdtheory.paper import report
 from pdtheory.paper.claims import CLAIMS, claim
+from pdtheory.paper.report_styles import sympy_version
 
 pytest.importorskip("matplotlib")
 
@@ -21,10 +22,13 @@ def ordered(results):
 
 
 def test_page_of_the_docs_is_up_to_date(ordered):
-    assert PAGE.read_text(encoding="utf-8") == report.compose(ordered, PAGE), (
+    page = PAGE.read_text(encoding="utf-8")
+    if f"(SymPy {sympy_version()})" not in page:
+        pytest.skip("another version of SymPy writes expressions in another order")
+    assert page == report.compose(ordered, PAGE), (
         "docs/paper.md is out of date; run: pdtheory verify --report docs/paper.md"
     )
-    for name in re.findall(r"\]\((paper_figures/[a-z]+\.svg)\)", PAGE.read_text(encoding="utf-8")):
+    for name in re.findall(r"\]\((paper_figures/[a-z]+\.svg)\)", page):
         assert (PAGE.parent / name).is_file()
 
 
