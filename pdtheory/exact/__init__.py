@@ -12,6 +12,12 @@ from pdtheory.exact.cones import Cone, cone_coefficient, radial_moment
 from pdtheory.exact.eigenpairs import EigenPair, EigenPairs, real_eigenpairs
 from pdtheory.exact.expression import parse_expression
 from pdtheory.exact.faces import BinaryForm, Face, SymmetricTensor, WavejetsRow
+from pdtheory.exact.inverse import (
+    Realization,
+    realize_maxima,
+    rosy_kinds,
+    rows_with_critical_lines,
+)
 from pdtheory.exact.jets import SurfaceJet, explicit_jet, implicit_jet, parametric_jet
 from pdtheory.exact.prediction import ConePrediction, predict
 from pdtheory.exact.report import report
@@ -30,6 +36,7 @@ __all__ = [
     "Enclosure",
     "Face",
     "RealAlgebraic",
+    "Realization",
     "SurfaceJet",
     "SymmetricTensor",
     "WavejetsRow",
@@ -48,6 +55,9 @@ __all__ = [
     "predict",
     "radial_moment",
     "real_eigenpairs",
+    "realize_maxima",
     "report",
+    "rosy_kinds",
+    "rows_with_critical_lines",
     "taylor_forms",
 ]

@@ -258,6 +258,11 @@ class EigenPairs:
         """Return the pairs of one kind."""
         return tuple(p for p in self.pairs if p.kind == kind)
 
+    def _repr_latex_(self) -> str:
+        from pdtheory.exact.report import latex_pairs
+
+        return latex_pairs(self)
+
     def __len__(self) -> int:
         return len(self.pairs)
 

@@ -501,6 +501,25 @@ class WavejetsRow(Face):
         self.parts: dict[int, tuple[Any, Any]] = {n: parts.get(n, zero) for n in frequencies(order)}
 
     @classmethod
+    def from_maxima(cls, order: int, angles: Sequence[Any]) -> WavejetsRow:
+        """Return a row whose maxima are given angles in degrees.
+
+        Raises
+        ------
+        InputError
+            If no row has these maxima; the message says why.
+        """
+        from pdtheory.exact.inverse import realize_maxima
+
+        found = realize_maxima(order, angles)
+        if found.row is None:
+            listed = ", ".join(str(a) for a in found.angles)
+            raise InputError(
+                f"No row of order {order} has its maxima at {listed} degrees: {found.reason}."
+            )
+        return found.row
+
+    @classmethod
     def _of_form(cls, form: BinaryForm) -> WavejetsRow:
         k, table = form.order, krawtchouk(form.order)
         scale = sp.Rational(1, 2**k * factorial(k))

@@ -221,6 +221,11 @@ def test_close_directions_are_told_apart():
     assert counted == 2 * (poly.count_roots() + 3 - poly.degree())
 
 
+def test_latex_for_notebooks():
+    assert r"\frac{\sqrt{3}}{2}" in real_eigenpairs(BinaryForm([6, 0, -18, 0]))._repr_latex_()
+    assert "isotropic" in real_eigenpairs(BinaryForm([1, 0, 1]))._repr_latex_()
+
+
 def test_de_lathauwer_2000():
     entries = [sp.Rational(s) for s in ("1.5578", "-2.4443", "-1.0982", "1.1226")]
     form = BinaryForm([entries[0], 3 * entries[1], 3 * entries[2], entries[3]])

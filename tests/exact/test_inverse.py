@@ -174,6 +174,13 @@ def test_rosy_turned():
     assert rosy_kinds(row) == {Kind.MAXIMUM}
 
 
+def test_rows_from_angles():
+    row = WavejetsRow.from_maxima(3, [0, 110, 250])
+    assert_maxima(row, [0, 110, 250])
+    with pytest.raises(InputError, match="0, 90, 180 degrees: 0 and 180"):
+        WavejetsRow.from_maxima(3, [0, 90, 180])
+
+
 def test_bad_input():
     with pytest.raises(InputError, match="No angle"):
         realize_maxima(3, [])
