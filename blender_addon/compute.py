@@ -5,6 +5,7 @@ from types import SimpleNamespace
 
 import bpy
 
+from pdtheory.blender.glyphs import glyph_data
 from pdtheory.blender.proposal import propose_radius
 from pdtheory.blender.result import describe, show_result
 from pdtheory.blender.source import read_object
@@ -41,12 +42,15 @@ class Compute(ComputeSettings, JobOperator, bpy.types.Operator):
         def work(report):
             from pdtheory.pointset.estimate import estimate_directions
 
-            return estimate_directions(source.cloud, progress=report, **options)
+            field = estimate_directions(source.cloud, progress=report, **options)
+            report(1.0, "laying out the strokes")
+            return field, glyph_data(field)
 
         return prepare(thing, work, source)
 
-    def apply(self, thing, source, field):
-        show_result(thing, source, field)
+    def apply(self, thing, source, result):
+        field, data = result
+        show_result(thing, source, field, data)
         lines = describe(field, loose=source.loose)
         thing.principal_directions.summary = "\n".join(lines)
         thing.principal_directions.comparison = ""

@@ -69,6 +69,7 @@ class ShowExact(JobOperator, bpy.types.Operator):
         compat.set_input(modifier, "Style", "Arrows")
         compat.set_input(modifier, "One Order Per Point", False)
         compat.set_input(modifier, "Spacing", 0.0)
+        compat.set_input(modifier, "Lift", 0.15)
         scale = float(np.cbrt(abs(np.linalg.det(source.linear))))
         compat.set_input(modifier, "Length", 1.5 * compat.get_input(estimated, "Length") / scale)
         lines = compare_fields(field_of(strokes_of(thing)), exact, source.linear)

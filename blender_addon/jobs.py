@@ -122,11 +122,18 @@ class JobOperator:
             self._stop(context)
             return {"CANCELLED"}
         if event.type == "ESC" and event.value == "PRESS":
+            # The thread ends at its next report; it holds copies only, nobody waits for it.
             _running.job.cancel()
-            _show_progress(context.window_manager)
-            return {"RUNNING_MODAL"}
+            self._stop(context)
+            self.report({"INFO"}, "Cancelled")
+            return {"CANCELLED"}
         if event.type != "TIMER":
             return {"PASS_THROUGH"}
+        if _running.job.cancelled:
+            # By the button.
+            self._stop(context)
+            self.report({"INFO"}, "Cancelled")
+            return {"CANCELLED"}
         if not _running.job.done:
             _show_progress(context.window_manager)
             return {"PASS_THROUGH"}
@@ -191,8 +198,14 @@ def _show_progress(manager):
     progress, job = manager.principal_directions, _running.job
     progress.running = True
     progress.fraction = job.fraction
-    progress.text = "Cancelling" if job.cancelled else job.text.capitalize()
-    redraw()
+    progress.text = job.text.capitalize()
+    # Only the sidebars: drawing a large object ten times a second would stop the window.
+    for window in manager.windows:
+        for area in window.screen.areas:
+            if area.type == "VIEW_3D":
+                for region in area.regions:
+                    if region.type == "UI":
+                        region.tag_redraw()
 
 
 def redraw():

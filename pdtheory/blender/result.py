@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 from mathutils import Matrix
 
-from pdtheory.blender.glyphs import add_glyphs, fill_mesh, glyph_data, offer_orders
+from pdtheory.blender.glyphs import GlyphData, add_glyphs, fill_mesh, glyph_data, offer_orders
 from pdtheory.blender.source import Source, read_object
 from pdtheory.conventions import UNANSWERED, Status
 from pdtheory.errors import InputError
@@ -47,7 +47,13 @@ def strokes_of(thing: Any) -> Any | None:
 
 
 def show_result(
-    thing: Any, source: Source, field: DirectionField, *, strokes: int = 800, suffix: str = ""
+    thing: Any,
+    source: Source,
+    field: DirectionField,
+    data: GlyphData | None = None,
+    *,
+    strokes: int = 400,
+    suffix: str = "",
 ) -> Any:
     """Put a field onto the object it was computed on, in place of an earlier one.
 
@@ -61,6 +67,8 @@ def show_result(
         What was computed on.
     field
         The result.
+    data
+        Its layout, if it was made before (it takes a second or two and needs no Blender).
     strokes
         About how many points carry strokes at first.
     suffix
@@ -71,7 +79,8 @@ def show_result(
     bpy.types.Object
         The stroke object.
     """
-    data = glyph_data(field)
+    if data is None:
+        data = glyph_data(field)
     name = f"{thing.name} directions{suffix}"
     children = [child for child in thing.children if child.get(SUFFIX_KEY) == suffix]
     if children:

@@ -1,0 +1,259 @@
+"""Runs inside a real Blender with a window: acts as a user would, and writes down what happened.
+
+Usage: blender --python drive.py -- FOLDER SCENARIO
+The folder receives screenshots and `report.json`. Mouse and keys come from xdotool, so that every
+event goes through the window system.
+"""
+
+import json
+import subprocess
+import sys
+import time
+import traceback
+from pathlib import Path
+
+import bpy
+from mathutils import Euler
+
+FOLDER = Path(sys.argv[sys.argv.index("--") + 1])
+SCENARIO = sys.argv[sys.argv.index("--") + 2]
+LOUD = (1.0, 0.0, 1.0)
+report = {"gaps": []}
+
+
+def shot(name):
+    path = FOLDER / f"{name}.png"
+    subprocess.run(["import", "-window", "root", str(path)], check=True)
+    return path
+
+
+def pixels(path):
+    image = bpy.data.images.load(str(path))
+    import numpy as np
+
+    values = np.array(image.pixels[:]).reshape(image.size[1], image.size[0], 4)[::-1, :, :3]
+    bpy.data.images.remove(image)
+    return values
+
+
+def loud_button():
+    """Return the place of the highest button in the loud colour, None if there is none."""
+    import numpy as np
+
+    picture = pixels(shot("search"))
+    loud = (picture[..., 0] > 0.8) & (picture[..., 1] < 0.25) & (picture[..., 2] > 0.8)
+    rows = loud.sum(axis=1)
+    best, height = None, 0
+    start = None
+    for y, wide in enumerate([*(rows > 60), False]):
+        if wide and start is None:
+            start = y
+        elif not wide and start is not None:
+            if y - start > height:
+                best, height = (start + y) // 2, y - start
+            start = None
+    if best is None or height < 24:
+        return None
+    columns = np.flatnonzero(loud[best])
+    return int(columns.mean()), best
+
+
+def xdotool(*words):
+    subprocess.run(["xdotool", *map(str, words)], check=True)
+
+
+def view():
+    area = next(a for a in bpy.context.window.screen.areas if a.type == "VIEW_3D")
+    return area, next(r for r in area.regions if r.type == "WINDOW")
+
+
+def open_tab():
+    """Open the sidebar and click along its tabs until the Compute button shows."""
+    area, _ = view()
+    area.spaces.active.show_region_ui = True
+    area.tag_redraw()
+    yield 1.0
+    sidebar = next(r for r in area.regions if r.type == "UI")
+    # Blender counts from the bottom of its window, the screen from the top.
+    edge = sidebar.x + sidebar.width - 12
+    top = bpy.context.window.height - (sidebar.y + sidebar.height)
+    for down in (250, 230, 210, 270, 290, 190, 170, 310, 150, 330):
+        xdotool("mousemove", edge, top + down)
+        yield 0.3
+        xdotool("click", 1)
+        # A second click on the same tab would close it again: leave time to see the first.
+        for _ in range(6):
+            yield 0.5
+            if loud_button() is not None:
+                return
+    raise RuntimeError("the tab is not to be found")
+
+
+def prepare(resolution):
+    bpy.ops.object.select_all(action="SELECT")
+    bpy.ops.object.delete()
+    bpy.ops.principal_directions.add_monkey(resolution=resolution)
+    area, region = view()
+    area.spaces.active.overlay.show_floor = False
+    area.spaces.active.shading.light = "STUDIO"
+    area.spaces.active.shading.color_type = "MATERIAL"
+    with bpy.context.temp_override(area=area, region=region):
+        bpy.ops.view3d.view_selected()
+    space = area.spaces.active
+    space.overlay.show_axis_x = space.overlay.show_axis_y = False
+    space.overlay.show_cursor = False
+    space.region_3d.view_rotation = Euler((0.75, 0.0, 0.5)).to_quaternion()
+    space.region_3d.view_distance *= 1.25
+    settings = bpy.context.scene.principal_directions
+    settings.degree = 6
+    settings.neighbours = 80
+    settings.orders = {"2", "3", "4"}
+
+
+def running():
+    return bpy.context.window_manager.principal_directions.running
+
+
+def strokes():
+    return [o.name for o in bpy.data.objects if "pdtheory_points" in o]
+
+
+def wait_for(condition, seconds=400.0):
+    end = time.monotonic() + seconds
+    while not condition():
+        if time.monotonic() > end:
+            raise RuntimeError("waited in vain")
+        yield 0.02
+
+
+def click():
+    place = loud_button()
+    if place is None:
+        raise RuntimeError("the Compute button is not to be seen")
+    # A button must be under the mouse before it can be pressed.
+    xdotool("mousemove", *place)
+    yield 0.5
+    xdotool("click", 1)
+
+
+def compute():
+    """Click Compute and wait for the result."""
+    yield from click()
+    yield from wait_for(running, 20.0)
+    report["gaps"].clear()
+    started = time.monotonic()
+    pictured = False
+    while running():
+        if not pictured and bpy.context.window_manager.principal_directions.fraction > 0.3:
+            pictured = True
+            shot("progress")
+            report["gaps"].append(None)
+        yield 0.02
+    report["seconds"] = time.monotonic() - started
+
+
+def scenario_compute():
+    prepare(40)
+    yield from open_tab()
+    yield from compute()
+    yield 1.5
+    report["summary"] = bpy.context.object.principal_directions.summary
+    report["strokes"] = strokes()
+    shot("result")
+    xdotool("mousemove", 400, 400, "key", "ctrl+z")
+    yield 1.5
+    report["after_undo"] = strokes()
+    xdotool("key", "ctrl+shift+z")
+    yield 1.5
+    report["after_redo"] = strokes()
+    shot("redo")
+
+
+def scenario_large():
+    prepare(16)
+    bpy.ops.principal_directions.compute()  # compiles, where nothing is in the cache
+    prepare(183)
+    report["vertices"] = len(bpy.context.object.data.vertices)
+    yield from open_tab()
+    yield from compute()
+    yield 2.0
+    report["strokes"] = strokes()
+    shot("large")
+
+
+def scenario_escape():
+    prepare(16)
+    bpy.ops.principal_directions.compute()
+    prepare(183)
+    yield from open_tab()
+    yield from click()
+    yield from wait_for(running, 20.0)
+    yield from wait_for(lambda: bpy.context.window_manager.principal_directions.fraction > 0.1)
+    pressed = time.monotonic()
+    xdotool("mousemove", 400, 400, "key", "Escape")
+    yield from wait_for(lambda: not running(), 20.0)
+    report["escape_seconds"] = time.monotonic() - pressed
+    report["strokes"] = strokes()
+
+
+def scenario_deleted():
+    prepare(16)
+    bpy.ops.principal_directions.compute()
+    prepare(183)
+    yield from open_tab()
+    yield from click()
+    yield from wait_for(running, 20.0)
+    yield from wait_for(lambda: bpy.context.window_manager.principal_directions.fraction > 0.1)
+    bpy.data.objects.remove(bpy.context.object)
+    yield from wait_for(lambda: not running())
+    yield 0.5
+    report["strokes"] = strokes()
+
+
+def scenario_new_file():
+    prepare(16)
+    bpy.ops.principal_directions.compute()
+    prepare(183)
+    yield from open_tab()
+    yield from click()
+    yield from wait_for(running, 20.0)
+    yield from wait_for(lambda: bpy.context.window_manager.principal_directions.fraction > 0.1)
+    bpy.ops.wm.read_homefile(use_factory_startup=True)
+    yield 2.0
+    report["running"] = running()
+    report["strokes"] = strokes()
+
+
+def finish():
+    (FOLDER / "report.json").write_text(json.dumps(report))
+    bpy.ops.wm.quit_blender()
+
+
+def play():
+    steps = globals()[f"scenario_{SCENARIO}"]()
+    last = time.monotonic()
+
+    def step():
+        nonlocal last
+        now = time.monotonic()
+        report["gaps"].append(now - last)
+        try:
+            pause = next(steps)
+        except StopIteration:
+            finish()
+            return None
+        except Exception:
+            shot("error")
+            report["error"] = traceback.format_exc()
+            finish()
+            return None
+        last = time.monotonic()
+        return pause
+
+    return step
+
+
+bpy.context.preferences.view.show_splash = False
+bpy.context.preferences.themes[0].user_interface.wcol_tool.inner = (*LOUD, 1.0)
+bpy.context.preferences.themes[0].user_interface.wcol_tool.inner_sel = (*LOUD, 1.0)
+bpy.app.timers.register(play(), first_interval=2.0, persistent=True)
