@@ -101,7 +101,7 @@ class Planes(ConeSurface):
     parameters: ClassVar[Parameters] = (
         Parameter(
             "azimuths",
-            "0,62,131,217,289",
+            "0,60,135,210,300",
             "directions of the ridges in degrees, ascending, gaps below 180",
             0,
             360,

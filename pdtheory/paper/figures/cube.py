@@ -135,8 +135,8 @@ def draw(job: Job, outcome: Outcome, folder: Path) -> list[Path]:
 FIGURE = Figure(
     "cube",
     "order 2 and 3 principal directions on the edges and corners of a cube",
-    "Order 2 lies along and across the edges and loses its direction at the corners, where only its "
-    "isotropic part is left; order 3 vanishes on the edges and finds all three at a corner.",
+    "Order 2 lies along and across the edges and loses its direction at the corners, where only "
+    "its isotropic part is left; order 3 vanishes on the edges and finds all three at a corner.",
     compute,
     draw,
 )

@@ -39,7 +39,7 @@ def corner_errors(field: DirectionField) -> FloatArray:
     for index, corner in enumerate(corners):
         normal = corner / np.linalg.norm(corner)
         edge = -np.diag(corner) + np.outer(corner * normal, normal)
-        edge /= np.linalg.norm(edge, axis=1, keepdims=True)
+        edge = edge / np.linalg.norm(edge, axis=1, keepdims=True)
         found = maxima.vector[maxima.at(len(edges) + index)]
         cosine = (edge @ found.T).max(axis=1, initial=-1.0)
         result.append(np.degrees(np.arccos(np.clip(cosine.min(), -1, 1))))
@@ -52,7 +52,7 @@ def compute(job: Job) -> Outcome:
     count = 6 * job.pick(100, 180, 400) ** 2
     checks: list[Check] = []
     numbers = {}
-    scenes = []
+    scenes: list[tuple[float, str, DirectionField]] = []
     for level in LEVELS:
         samples = surface.sample(
             count, method="grid", noise=level, noise_along="position", seed=job.seed
@@ -65,14 +65,14 @@ def compute(job: Job) -> Outcome:
             checks += [
                 at_most(
                     f"{level} %, {norm}: median angle in degrees from edge to order-2 maximum",
-                    np.median(on_edges),
+                    float(np.median(on_edges)),
                     0.3 + 25.0 * level,
                     because,
                 ),
                 at_most(
                     f"{level} %, {norm}: median over corners of the worst angle from edge to "
                     "order-3 maximum",
-                    np.median(at_corners),
+                    float(np.median(at_corners)),
                     1.0 + 150.0 * level,
                     because,
                 ),

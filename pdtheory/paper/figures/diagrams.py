@@ -102,16 +102,16 @@ def _draw(job: Job, outcome: Outcome, folder: Path, order: int, name: str) -> li
 DELTOID = Figure(
     "deltoid",
     "beyond the paper",
-    "How many maxima order 3 has, with phi_33 = 1: three inside the deltoid, one outside. Every dot "
-    "is an exact count.",
+    "How many maxima order 3 has, with phi_33 = 1: three inside the deltoid, one outside. "
+    "Every dot is an exact count.",
     lambda job: _compute(job, 3),
     lambda job, outcome, folder: _draw(job, outcome, folder, 3, "deltoid"),
 )
 ASTROID = Figure(
     "astroid",
     "beyond the paper",
-    "How many maxima order 4 has, with phi_44 = 1: four inside the astroid, two outside. Every dot "
-    "is an exact count.",
+    "How many maxima order 4 has, with phi_44 = 1: four inside the astroid, two outside. "
+    "Every dot is an exact count.",
     lambda job: _compute(job, 4),
     lambda job, outcome, folder: _draw(job, outcome, folder, 4, "astroid"),
 )

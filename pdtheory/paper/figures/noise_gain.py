@@ -34,10 +34,11 @@ def gain(x: FloatArray, y: FloatArray, degree: int) -> dict[int, float]:
     weight = np.exp(-4.5 * (x**2 + y**2))
     table = [(k, n) for k in range(degree + 1) for n in frequencies(k)]
     w = x + 1j * y
-    columns = []
+    columns: list[FloatArray] = []
     for k, n in table:
         base = w**n * (x**2 + y**2) ** ((k - n) // 2)
-        columns += [base.real] if n == 0 else [2 * base.real, -2 * base.imag]
+        parts = [base.real] if n == 0 else [2 * base.real, -2 * base.imag]
+        columns += [np.asarray(part, dtype=np.float64) for part in parts]
     matrix = np.stack(columns, axis=1)
     solve = np.linalg.pinv(matrix * np.sqrt(weight)[:, None]) * np.sqrt(weight)
     variance = np.sum(solve**2, axis=1)
@@ -64,7 +65,7 @@ def compute(job: Job) -> Outcome:
     observed: dict[int, dict[int, float]] = {}
     for degree in degrees:
         job.tell(degree / 10, f"noise-gain: degree {degree}")
-        factors = gain(*(clean[near, :2] / _RADIUS).T, degree)
+        factors = gain(clean[near, 0] / _RADIUS, clean[near, 1] / _RADIUS, degree)
         orders = [order for order in _ORDERS if order <= degree]
         predicted[degree] = {order: factors[order] for order in orders}
         squares = dict.fromkeys(orders, 0.0)

@@ -11,7 +11,7 @@ from pdtheory.paper.figures.measure import angles_in, circular_distance, exact_r
 from pdtheory.paper.figures.outcome import Check, Figure, Job, Outcome, at_most
 from pdtheory.paper.figures.stage import Panel, Strokes, sheet
 from pdtheory.pointset import estimate_directions
-from synthetic_surfaces.spread import thin
+from synthetic_surfaces.spread import OVERSAMPLING, thin
 
 #: How far the branch has grown.
 STEPS = ("0", "1/2", "1")
@@ -22,7 +22,7 @@ _DEGREE = 10
 
 
 def compute(job: Job) -> Outcome:
-    """Estimate orders 2 and 3 over the surfaces, and compare those at the junction with exact ones."""
+    """Estimate orders 2 and 3, and compare those at the junction with the exact ones."""
     checks: list[Check] = []
     numbers = {}
     scenes = []
@@ -36,8 +36,9 @@ def compute(job: Job) -> Outcome:
         inner = (
             np.linalg.norm(samples.points[:, :2], axis=1) < float(surface.values["extent"]) - 0.06
         )
-        candidates = samples.points[inner][:4000]
-        spots = candidates[thin(candidates, job.pick(40, 240, 240))]
+        wanted = job.pick(40, 240, 240)
+        candidates = samples.points[inner][: OVERSAMPLING * wanted]
+        spots = candidates[thin(candidates, wanted)]
         centre = np.array([[0.0, 0.0, float(surface.values["height"])]])
         field = estimate_directions(
             samples,
@@ -99,12 +100,22 @@ def draw(job: Job, outcome: Outcome, folder: Path) -> list[Path]:
     """Draw order 2 above and order 3 below, lengths by strength on one scale for each row."""
     panels = []
     for order in (2, 3):
-        strengths = [field[order].maxima.strength for _, _, field in outcome.scene]
-        full = float(np.quantile(np.concatenate(strengths), 0.97))
+        strengths = [field[order].strength for _, _, field in outcome.scene]
+        full = float(np.quantile(np.concatenate(strengths), 0.92))
         panels += [
             Panel(
                 mesh,
-                [Strokes(field, [order], 0.06, full=full, width=0.2, least=0.08 * full)],
+                [
+                    Strokes(
+                        field,
+                        [order],
+                        0.06,
+                        full=full,
+                        width=0.2,
+                        least=0.1 * full,
+                        minima=order == 2,
+                    )
+                ],
                 f"order {order}, step {step}",
                 azimuth=15,
                 elevation=50,
@@ -117,8 +128,8 @@ def draw(job: Job, outcome: Outcome, folder: Path) -> list[Path]:
 FIGURE = Figure(
     "ridge2junction",
     "order 2 and 3 principal directions on a surface evolving from a ridge to a smooth T-junction",
-    "Maxima of order 2 (top) and 3 (bottom) while a branch grows out of a ridge; length by strength. "
-    "On the ridge order 3 vanishes; at the junction it points along the branch.",
+    "Orders 2 (top, minima thin) and 3 (bottom) while a branch grows out of a ridge; length by "
+    "strength. On the ridge order 3 vanishes; at the junction it points along the branch.",
     compute,
     draw,
 )

@@ -47,11 +47,11 @@ def compute(job: Job) -> Outcome:
             at_most(f"{name}: distance from an exact {order}-RoSy in degrees",
                     worst_angle(found, TURN * np.arange(order) / order), 1e-5, because),
             at_most(f"{name}: relative error of lambda = {largest:g}",
-                    np.max(np.abs(maxima.eigenvalue / largest - 1)), 1e-7, because),
+                    np.max(np.abs(maxima.eigenvalue / largest - 1), initial=0.0), 1e-7, because),
             at_most(
                 f"{name}: strength of the other orders over that of order {order}",
                 max(field[k].strength.max(initial=0.0) for k in range(2, 9) if k != order)
-                / maxima.strength.max(),
+                / maxima.strength.max(initial=1e-300),
                 1e-6,
                 "all other orders vanish",
             ),
