@@ -17,3 +17,22 @@ def scene():
     from pdtheory.blender.scene import new_file
 
     return new_file()
+
+
+@pytest.fixture(scope="session")
+def _registered():
+    """The extension, switched on for the session: some Blenders crash if it still is at the end."""
+    pytest.importorskip("bpy", exc_type=ImportError)
+    import blender_addon
+
+    blender_addon.register()
+    yield
+    blender_addon.unregister()
+
+
+@pytest.fixture
+def operators(_registered, scene):
+    """The operators of the extension, in a fresh file."""
+    import bpy
+
+    return bpy.ops.principal_directions
