@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from pdtheory.errors import InputError
+from pdtheory.errors import FileAccessError, InputError
 
 
 class Method(StrEnum):
@@ -82,10 +82,14 @@ def surfaces(
     name: Annotated[
         str | None, typer.Argument(metavar="[NAME]", help="Tell about one surface only.")
     ] = None,
+    thumbnails: Annotated[
+        Path | None,
+        typer.Option(help="Folder for a small picture of each (needs the extra blender)."),
+    ] = None,
 ) -> None:
     """List the synthetic surfaces and their parameters.
 
-    Example: pdtheory surfaces torus
+    Example: pdtheory surfaces torus --thumbnails pictures
     """
     from rich.console import Console
     from rich.table import Table
@@ -99,6 +103,25 @@ def surfaces(
         rows = [parameter.summary for parameter in shape.parameters]
         table.add_row(each, "\n".join(rows), f"{shape.summary}\n{shape.describe()}")
     Console(markup=False).print(table)
+    if thumbnails is not None:
+        _draw_thumbnails(chosen, thumbnails)
+
+
+def _draw_thumbnails(names: tuple[str, ...], folder: Path) -> None:
+    """Render a small picture of each surface into a folder, which is made if needed."""
+    import synthetic_surfaces
+    from pdtheory.cli.options import progress_bar
+    from pdtheory.paper.figures.stage import Panel, render
+
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise FileAccessError(f"cannot make the folder {folder}: {error.strerror}.") from error
+    with progress_bar("thumbnails") as report:
+        for index, name in enumerate(names):
+            report(index / len(names), name)
+            panel = Panel(synthetic_surfaces.get(name).mesh(64), [], azimuth=20, elevation=35)
+            render(panel, folder / f"{name}.png", (320, 240), 16)
 
 
 def _parameters(pairs: list[str]) -> dict[str, str]:

@@ -54,6 +54,13 @@ def test_surfaces_lists_every_name_and_every_parameter() -> None:
             assert f"{parameter.name} (" in told
 
 
+@pytest.mark.blender
+def test_thumbnails(tmp_path: Path) -> None:
+    pytest.importorskip("bpy")
+    run("surfaces", "cube", "--thumbnails", str(tmp_path / "pictures"))
+    assert (tmp_path / "pictures" / "cube.png").stat().st_size > 2000
+
+
 @pytest.mark.parametrize(
     "arguments",
     [

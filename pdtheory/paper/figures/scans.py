@@ -21,6 +21,9 @@ from synthetic_surfaces.spread import OVERSAMPLING, thin
 
 DEGREE = 10
 
+#: A direction uncertain by this angle counts half.
+_CERTAIN = np.radians(3.0)
+
 
 @dataclass(frozen=True)
 class Scan:
@@ -79,16 +82,18 @@ def sample(mesh: PointCloud, count: int, seed: int) -> PointCloud:
 
 
 def telling_order(field: DirectionField, orders: Sequence[int]) -> npt.NDArray[np.int64]:
-    """Return for every point the order that stands out there most.
+    """Return for every point the order that stands out there most and is certain.
 
     That is the order whose strongest maximum is largest when measured by the 80 % quantile of its
-    order over all points; 0 where there is none. It takes the place of a choice by hand.
+    order over all points, the less so the less certain it is; 0 where there is none. It takes the
+    place of a choice by hand.
     """
     score = np.zeros((len(orders), len(field)))
     for row, order in enumerate(orders):
         maxima = field[order].maxima
-        np.maximum.at(score[row], maxima.point_index, maxima.strength)
-        score[row] /= np.quantile(score[row][score[row] > 0], 0.8)
+        certain = maxima.strength / (1.0 + (maxima.angle_std / _CERTAIN) ** 2)
+        np.maximum.at(score[row], maxima.point_index, certain)
+        score[row] /= np.quantile(maxima.strength, 0.8) if len(maxima) else 1.0
     best = np.array(orders)[score.argmax(axis=0)]
     return np.where(score.max(axis=0) > 0, best, 0)
 

@@ -213,7 +213,7 @@ def sheet(
     for index, panel in enumerate(panels):
         job.tell(index / len(panels), f"{name}: picture {index + 1} of {len(panels)}")
         path = folder / (f"{name}.png" if single else f"{name}-{index + 1}.png")
-        render(panel, path, pixels, job.pick(2, 16, 64))
+        render(panel, path, pixels, job.pick(2, 8, 64))
         paths.append(path)
     if single:
         return paths
