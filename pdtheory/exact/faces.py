@@ -288,7 +288,7 @@ def is_zero(value: Any) -> bool:
         return bool(value == 0)
     if value.is_zero is not None:
         return bool(value.is_zero)
-    if not value.free_symbols and abs(sp.N(value, 20)) > 1e-12:
+    if not value.free_symbols and abs(value.evalf(20, maxn=300)) > 1e-12:
         return False
     expanded = sp.expand(value)
     if expanded.is_zero is not None:

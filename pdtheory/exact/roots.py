@@ -10,8 +10,9 @@ from itertools import pairwise
 from typing import Any, NamedTuple
 
 import sympy as sp
+from sympy.core.evalf import PrecisionExhausted
 
-from pdtheory.errors import InputError
+from pdtheory.errors import ComputationError, InputError
 from pdtheory.exact.algebraic import FIRST_BITS, RealAlgebraic, precisions, primitive
 from pdtheory.exact.balls import Enclosure, engine, horner, real_roots
 from pdtheory.exact.faces import is_zero
@@ -133,11 +134,23 @@ class Coefficients:
 
 
 def evaluated(expression: Any, bits: int) -> Enclosure:
-    """Return an enclosure of a constant expression by SymPy's evaluation to a given accuracy."""
+    """Return an enclosure of a constant expression by SymPy's evaluation to a given accuracy.
+
+    Raises
+    ------
+    ComputationError
+        If SymPy cannot reach that accuracy.
+    """
     if expression.is_Rational:
         value = Fraction(int(expression.p), int(expression.q))
         return Enclosure(value, value)
-    value = sp.Rational(sp.N(expression, int(bits * 0.302) + 5))
+    digits = int(bits * 0.302) + 5
+    try:
+        value = sp.Rational(expression.evalf(digits, maxn=20 * digits, strict=True))
+    except PrecisionExhausted as error:
+        raise ComputationError(
+            f"The number {expression} could not be evaluated to {digits} digits."
+        ) from error
     middle = Fraction(int(value.p), int(value.q))
     slack = max(Fraction(1), abs(middle)) / 2 ** (bits - 8)
     return Enclosure(middle - slack, middle + slack)

@@ -12,7 +12,8 @@ from pdtheory.errors import InputError
 from pdtheory.exact import Cone, cone_coefficient, predict, radial_moment
 
 half = sp.Rational(1, 2)
-IRREGULAR = Cone(((0, 1), (70, -half), (150, sp.Rational(1, 3)), (200, 0), (290, -1)))
+IRREGULAR = Cone(((0, 1), (60, -half), (150, sp.Rational(1, 3)), (210, 0), (285, -1)))
+SEVENTY = Cone(((0, 1), (70, -half), (150, 0), (250, -1)))
 CONES = {
     "ridge": Cone.ridge(half),
     "corner": Cone.corner(),
@@ -46,6 +47,13 @@ def test_fourier_coefficients_by_quadrature(name):
             ).sum()
         assert complex(cone.fourier(n)) == pytest.approx(total / (2 * np.pi), abs=1e-13)
         assert complex(cone.fourier(-n)) == pytest.approx(np.conj(total) / (2 * np.pi), abs=1e-13)
+
+
+def test_angles_without_radicals():
+    prediction = predict(SEVENTY, 4)
+    fitted = least_squares(SEVENTY, 4, "flat", "gaussian")
+    own = prediction.numeric_phi()
+    assert np.abs(own - fitted)[~np.isnan(own)].max() < 1e-9
 
 
 def test_jumps_close():
