@@ -58,7 +58,7 @@ def verify(
     else:
         from rich.console import Console
 
-        _print(Console(highlight=False), results)
+        _print(Console(highlight=False), results, certificates=bool(ids))
     if report is not None:
         written = write_report(results, report)
         if not json:
@@ -67,8 +67,10 @@ def verify(
         raise typer.Exit(1)
 
 
-def _print(console: Console, results: list[Result]) -> None:
+def _print(console: Console, results: list[Result], *, certificates: bool) -> None:
     console.print(_table(results))
+    for result in results if certificates else ():
+        _print_certificate(console, result)
     failed = [result for result in results if not result.holds]
     for result in failed:
         console.print(f"\n{result.claim.id}: recorded as {result.claim.verdict}, but:")
@@ -82,6 +84,25 @@ def _print(console: Console, results: list[Result]) -> None:
         f"{len(results) - len(failed)} of {len(results)} claims come out as recorded "
         f"({steps} certified steps)."
     )
+
+
+def _print_certificate(console: Console, result: Result) -> None:
+    """Print what a claim says and every step of its certificate."""
+    from rich.padding import Padding
+    from rich.text import Text
+
+    claim = result.claim
+    console.print(f"\n[bold]{claim.id}[/bold] ({claim.place})")
+    if claim.printed:
+        console.print(Padding(Text(f"Printed: {claim.printed}"), (0, 0, 0, 2)))
+    console.print(Padding(Text(f"True: {claim.statement}"), (0, 0, 0, 2)))
+    for number, step in enumerate(result.steps, start=1):
+        sign = "" if step.holds else " - DOES NOT HOLD"
+        line = f"{number}. {step.shows}{sign}: {step.text}"
+        console.print(Padding(Text(line), (0, 0, 0, 2)))
+        for name, value in step.data.items():
+            console.print(Padding(Text(f"{name}: {value}", style="dim"), (0, 0, 0, 5)))
+    console.print()
 
 
 def _table(results: list[Result]) -> Table:

@@ -116,7 +116,8 @@ def compose(results: Sequence[Result], target: Path) -> str:
     from pdtheory.paper.report_figures import figures_of
     from pdtheory.paper.report_styles import STYLES
 
-    style = STYLES[check_requirements(target)](_figure_folder(target))
+    names = [result.claim.id for result in results]
+    style = STYLES[check_requirements(target)](_figure_folder(target), names)
     tally = Counter(result.verdict for result in results)
     failed = [result.claim.id for result in results if not result.holds]
     out = [style.head(TITLE), *map(style.paragraph, _INTRODUCTION)]

@@ -27,10 +27,13 @@ class Style(ABC):
     ----------
     figures
         Folder of the figures, relative to the report.
+    names
+        Ids of the claims in the report; where a text names one it is a link.
     """
 
-    def __init__(self, figures: str) -> None:
+    def __init__(self, figures: str, names: Iterable[str] = ()) -> None:
         self.figures = figures
+        self.names = frozenset(names)
 
     def inline(self, text: str) -> str:
         """Return a text with its mathematics, names and code in the notation of the format."""
@@ -41,7 +44,9 @@ class Style(ABC):
             elif part.startswith("`"):
                 parts.append(self.code(part[1:-1]))
             elif part.startswith("*") and part.endswith("*") and len(part) > 2:
-                parts.append(self.emphasis(self.plain(part[1:-1])))
+                name = part[1:-1]
+                shown = self.emphasis(self.plain(name))
+                parts.append(self.link(name, shown) if name in self.names else shown)
             else:
                 parts.append(self.plain(part))
         return "".join(parts)
@@ -65,6 +70,8 @@ class Style(ABC):
     def code(self, text: str) -> str: ...
     @abstractmethod
     def emphasis(self, text: str) -> str: ...
+    @abstractmethod
+    def link(self, name: str, text: str) -> str: ...
     @abstractmethod
     def head(self, title: str) -> str: ...
     @abstractmethod
@@ -110,6 +117,9 @@ class Markdown(Style):
 
     def emphasis(self, text: str) -> str:
         return f"*{text}*"
+
+    def link(self, name: str, text: str) -> str:
+        return f"[{text}](#{name})"
 
     def head(self, title: str) -> str:
         return (
@@ -189,6 +199,9 @@ class Html(Style):
 
     def emphasis(self, text: str) -> str:
         return f"<em>{text}</em>"
+
+    def link(self, name: str, text: str) -> str:
+        return f'<a href="#{html.escape(name)}">{text}</a>'
 
     def head(self, title: str) -> str:
         return (
@@ -292,6 +305,9 @@ class Tex(Style):
 
     def emphasis(self, text: str) -> str:
         return rf"\emph{{{text}}}"
+
+    def link(self, name: str, text: str) -> str:
+        return text
 
     def head(self, title: str) -> str:
         return _TEX_HEAD % title

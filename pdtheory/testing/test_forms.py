@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import cmath
+import math
 from fractions import Fraction
 from itertools import pairwise
 from typing import Any
@@ -20,6 +22,7 @@ from pdtheory.exact import (
     characteristic_polynomial,
     complex_eigenpairs,
     count_maxima,
+    realize_maxima,
 )
 from pdtheory.exact.strata import order3_discriminant, order4_discriminant
 from pdtheory.testing.profiles import examples
@@ -194,6 +197,38 @@ def test_interlacing(form: BinaryForm) -> None:
     """Around the circle maxima and minima alternate; for odd order maxima face minima."""
     kinds = [pair.kind for pair in form.eigenpairs() if pair.kind is not Kind.INFLECTION]
     assert all(a == -b for a, b in pairwise([*kinds, *kinds[:1]]))
+
+
+def _interlaces(angles: list[int]) -> bool:
+    """Tell whether angles and their opposites alternate around the circle."""
+    opposites = [(a + 180) % 360 for a in angles]
+    if set(angles) & set(opposites):
+        return False
+    marks = [a in angles for a in sorted([*angles, *opposites])]
+    return all(a != b for a, b in pairwise([*marks, marks[0]]))
+
+
+@examples
+@given(st.integers(2, 6), st.sets(st.sampled_from(range(0, 360, 45)), min_size=1, max_size=6))
+def test_realizable_maxima(order: int, chosen: set[int]) -> None:
+    """Angles are the maxima of some row exactly if they interlace, or come in pairs (even)."""
+    angles = sorted(chosen)
+    if order % 2:
+        expected = len(angles) % 2 == 1 and _interlaces(angles)
+    else:
+        expected = all((a + 180) % 360 in chosen for a in angles)
+    expected = expected and len(angles) <= order
+    found = realize_maxima(order, angles)
+    assert found.is_realizable == expected
+    if found.row is None:
+        return
+    assert count_maxima(found.row) == len(angles)
+    phi = found.row.to_complex()
+    for angle in map(math.radians, angles):
+        first = sum((1j * n * c * cmath.exp(1j * n * angle)).real for n, c in phi.items())
+        second = sum((-n * n * c * cmath.exp(1j * n * angle)).real for n, c in phi.items())
+        assert abs(first) < 1e-12 * max(map(abs, phi.values()))
+        assert second < 0
 
 
 @examples

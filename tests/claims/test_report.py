@@ -37,7 +37,10 @@ def test_html_stands_alone(ordered, tmp_path):
     target = tmp_path / "paper.html"
     assert report.write_report(ordered, target) == [target]
     text = target.read_text(encoding="utf-8")
-    assert not re.search(r'(?:src|href)="(?!data:)', text), "nothing may come from elsewhere"
+    assert not re.search(r'src="(?!data:)|href="(?!#)', text), "nothing may come from elsewhere"
+    anchors = set(re.findall(r'id="([a-z0-9-]+)"', text))
+    assert set(re.findall(r'href="#([a-z0-9-]+)"', text)) <= anchors
+    assert 'href="#k-rosy"' in text
     assert text.count("data:image/svg+xml;base64,") == 4
     formulas = re.findall(r"<math .*?</math>", text)
     assert len(formulas) > 500

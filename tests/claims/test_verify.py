@@ -29,6 +29,8 @@ def test_table_and_exit_code(run):
     assert result.exit_code == 0
     assert "lemma-gradient" in result.output
     assert "2 of 2 claims come out as recorded" in result.output
+    # Claims that are named are shown with their certificates.
+    assert "Derivative(x**i*y**(-i + k)*binomial(k, i), x)" in result.output.replace("\n", "")
 
 
 def test_json(run):

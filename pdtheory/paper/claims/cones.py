@@ -204,7 +204,7 @@ def cone_creases(
 def cone_three_planes(
     orders: Orders, angles: tuple[int, ...] = (0, 90, 180), valley_squared: int = 2
 ) -> Iterator[Step]:
-    J = sp.symbols(f"J_{':'.join(map(str, (0, len(angles))))}", real=True)
+    J = [sp.Symbol(f"J_{angle}", real=True) for angle in angles]
     closure = sp.expand_complex(
         sum(j * sp.exp(sp.I * sp.pi * sp.Rational(a, 180)) for j, a in zip(J, angles, strict=True))
     )

@@ -192,7 +192,7 @@ def lemma_gradient(
         yield identity(
             rf"The tensor with the one component $a_i = 1$ has $T v^k = \binom{{k}}{{i}} x^i "
             rf"y^{{k-i}}$ and $T_{name} v^{{k-1}}$ has the coefficient "
-            rf"$\binom{{k-1}}{{{lower}}}$; its derivative by ${name}$, over the monomial, equals "
+            rf"$\binom{{k-1}}{{{lower}}}$; its derivative by ${name}$ equals "
             rf"$k\, T_{name} v^{{k-1}}$ for symbolic $i$ and $k$.",
             sp.Derivative(form, variable),
             factor(k) * contracted,
