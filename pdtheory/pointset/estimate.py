@@ -21,6 +21,8 @@ from pdtheory.pointset.pool import Progress, run_chunks, thread_count
 
 #: Largest degree of a regression.
 MAX_DEGREE = 14
+Orient = Literal["auto", "normals", "winding", "propagate", "none"]
+
 #: Points in a chunk: some ten milliseconds of work, or a second of it with l1.
 CHUNK = 512
 
@@ -71,7 +73,7 @@ def make_engine(
         raise InputError(
             f"weight_distance {weight_distance!r} is not known; give '3d' or 'planar'."
         )
-    if frame == "given" and not intake.oriented:
+    if frame == "given" and not intake.planes:
         raise InputError("frame='given' takes the planes from normals; give normals.")
     choice = choose(radius, neighbours, radius_relative, intake.diagonal, len(intake.points))
     if weight_distance == "planar" and choice.radius is None:
@@ -106,6 +108,7 @@ def estimate_directions(
     norm: Literal["l2", "l1"] = "l2",
     normals: npt.ArrayLike | None = None,
     queries: npt.ArrayLike | None = None,
+    orient: Orient | npt.ArrayLike = "auto",
     frame: Literal["tangent", "principal", "given"] = "tangent",
     weight_distance: Literal["3d", "planar"] = "3d",
     uncertainty: bool = True,
@@ -140,6 +143,11 @@ def estimate_directions(
         Vectors on the side from which heights are counted. Default: the normals of the cloud.
     queries : (Q, 3) float or (Q,) int array_like, optional
         Positions, or indices of points, where directions are computed. Default: all points.
+    orient : {"auto", "normals", "winding", "propagate", "none"} or (3,) array_like
+        How the side of the normals is found: from the normals, from the faces of the cloud, by
+        handing signs on from neighbour to neighbour, not at all (then the status says
+        ``UNORIENTED``), or towards a viewpoint. "auto" takes the first that the input allows, but
+        hands on only if all points are queries, since that visits all of them.
     frame : {"tangent", "principal", "given"}
         The local plane: tangent to the fitted surface, the robust principal plane of the
         neighbours, or orthogonal to the given normals.
@@ -175,7 +183,7 @@ def estimate_directions(
     query from the smoothed surface. In the tangent frame phi_{1,1} is zero.
     """
     wanted = check_orders(orders, degree)
-    intake = take_in(points, normals, queries, non_finite)
+    intake = take_in(points, normals, queries, non_finite, orient)
     engine = make_engine(
         intake,
         radius=radius,

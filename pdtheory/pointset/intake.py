@@ -10,12 +10,14 @@ import numpy.typing as npt
 from scipy.spatial import cKDTree
 
 from pdtheory.errors import InputError
-from pdtheory.pointset.cloud import FloatArray, PointCloud
+from pdtheory.pointset.cloud import FloatArray, IntArray, PointCloud
+from pdtheory.pointset.orientation import consistent_normals, winding_normals
 
 #: Extents outside these bounds would overflow in the units of high orders.
 SMALLEST, LARGEST = 1e-20, 1e20
 #: Fewest points worth a fit.
 FEWEST = 8
+_ORIENT = ("auto", "normals", "winding", "propagate", "none")
 
 
 @dataclass(frozen=True)
@@ -31,9 +33,11 @@ class Intake:
     places : (Q, 3) float64
         Queries as given.
     references : (Q, 3) float64
-        Vectors on the side of the normals: the given normals, else away from the centre.
+        Vectors on the side of the normals; away from the centre if nothing says the side.
     oriented : bool
-        Whether normals were given.
+        Whether something does.
+    planes : bool
+        Whether the vectors are normals of the surface as given.
     diagonal : float
         Diagonal of the bounding box.
     rounding : float
@@ -47,6 +51,7 @@ class Intake:
     places: FloatArray
     references: FloatArray
     oriented: bool
+    planes: bool
     diagonal: float
     rounding: float
     dropped: int
@@ -77,8 +82,9 @@ def take_in(
     normals: npt.ArrayLike | None,
     queries: npt.ArrayLike | None,
     non_finite: str,
+    orient: str | npt.ArrayLike,
 ) -> Intake:
-    """Check points, normals and queries.
+    """Check points, normals and queries, and find the side of the normals.
 
     Raises
     ------
@@ -87,9 +93,9 @@ def take_in(
     """
     if non_finite not in ("refuse", "drop"):
         raise InputError(f"non_finite {non_finite!r} is not known; give 'refuse' or 'drop'.")
-    name = "points"
+    name, faces = "points", None
     if isinstance(points, PointCloud):
-        name = points.name
+        name, faces = points.name, points.faces
         normals = points.normals if normals is None else normals
         points = points.points
     places, roundoff = as_vectors(points, name)
@@ -102,52 +108,102 @@ def take_in(
             f"(the first is number {first}); remove them, or pass non_finite='drop'."
         )
     kept = places[finite] if dropped else places
-    if len(kept) < FEWEST:
+    centre, diagonal = _extent(kept, name)
+    wanted, index = (places, None) if queries is None else _resolve_queries(queries, places)
+    shifted = wanted - centre
+    mode = _mode(orient, normals, faces, queries is None)
+    sides = _sides(mode, places, normals, faces, finite)
+    if sides is None:
+        references, oriented = np.where(np.isfinite(shifted), shifted, 0.0), False
+    elif sides.shape == (3,):
+        references, oriented = np.where(np.isfinite(wanted), sides - wanted, 0.0), True
+    else:
+        if queries is not None and index is None:
+            index = _nearest_index(kept, np.flatnonzero(finite), wanted)
+        references, oriented = sides if index is None else sides[index], True
+    return Intake(
+        points=kept - centre,
+        queries=shifted,
+        places=wanted,
+        references=np.ascontiguousarray(references),
+        oriented=oriented,
+        planes=isinstance(mode, str) and mode in ("normals", "winding"),
+        diagonal=diagonal,
+        rounding=roundoff * float(np.abs(kept).max()),
+        dropped=dropped,
+    )
+
+
+def _extent(points: FloatArray, name: str) -> tuple[FloatArray, float]:
+    """Return middle and diagonal of the bounding box of points that can be worked on."""
+    if len(points) < FEWEST:
         raise InputError(
-            f"{name}: {len(kept)} finite points are too few; the smallest fit needs {FEWEST}."
+            f"{name}: {len(points)} finite points are too few; the smallest fit needs {FEWEST}."
         )
-    low, high = kept.min(axis=0), kept.max(axis=0)
+    low, high = points.min(axis=0), points.max(axis=0)
     with np.errstate(over="ignore"):
         diagonal = float(np.linalg.norm(high - low))
     if diagonal == 0.0:
-        raise InputError(f"{name}: all {len(kept)} points are equal; there is no surface.")
+        raise InputError(f"{name}: all {len(points)} points are equal; there is no surface.")
     if not SMALLEST <= diagonal <= LARGEST:
         raise InputError(
             f"{name}: the bounding box has the diagonal {diagonal:g}; "
             f"choose units in which it is between {SMALLEST:g} and {LARGEST:g}."
         )
-    centre = low + (high - low) / 2
-    vectors = None
+    return low + (high - low) / 2, diagonal
+
+
+def _mode(
+    orient: str | npt.ArrayLike, normals: npt.ArrayLike | None, faces: IntArray | None, whole: bool
+) -> str | FloatArray:
+    """Return how the side of the normals is found: one of the words but "auto", or a viewpoint."""
+    if not isinstance(orient, str):
+        viewpoint = np.asarray(orient)
+        if viewpoint.shape != (3,) or viewpoint.dtype.kind not in "fiu":
+            raise InputError(f"a viewpoint is three numbers, not an array {viewpoint.shape}.")
+        if not np.isfinite(viewpoint).all():
+            raise InputError("the viewpoint has NaN or infinite coordinates.")
+        return viewpoint.astype(np.float64)
+    if orient not in _ORIENT:
+        raise InputError(f"orient {orient!r} is not known; give one of {', '.join(_ORIENT)}.")
+    if orient != "auto":
+        return orient
     if normals is not None:
+        return "normals"
+    if faces is not None and len(faces):
+        return "winding"
+    return "propagate" if whole else "none"
+
+
+def _sides(
+    mode: str | FloatArray,
+    places: FloatArray,
+    normals: npt.ArrayLike | None,
+    faces: IntArray | None,
+    finite: Any,
+) -> FloatArray | None:
+    """Return a vector on the side of the normal for each point, a viewpoint (3,), or None."""
+    if not isinstance(mode, str):
+        return mode
+    if mode == "normals":
+        if normals is None:
+            raise InputError("orient='normals' needs normals; give them, or another orient.")
         vectors, _ = as_vectors(normals, "normals")
         if len(vectors) != len(places):
             raise InputError(
                 f"{len(vectors)} normals for {len(places)} points; give one for each point."
             )
-        vectors = np.where(np.isfinite(vectors).all(axis=1)[:, None], vectors, 0.0)
-    centred = kept - centre
-    if queries is None:
-        wanted, references = places, vectors
-    else:
-        wanted, index = _resolve_queries(queries, places)
-        references = None
-        if vectors is not None:
-            if index is None:
-                index = _nearest_index(kept, np.flatnonzero(finite), wanted)
-            references = vectors[index]
-    shifted = wanted - centre
-    if references is None:
-        references = np.where(np.isfinite(shifted), shifted, 0.0)
-    return Intake(
-        points=centred,
-        queries=shifted,
-        places=wanted,
-        references=np.ascontiguousarray(references),
-        oriented=vectors is not None,
-        diagonal=diagonal,
-        rounding=roundoff * float(max(np.abs(low).max(), np.abs(high).max())),
-        dropped=dropped,
-    )
+        return np.where(np.isfinite(vectors).all(axis=1)[:, None], vectors, 0.0)
+    if mode == "winding":
+        if faces is None or not len(faces):
+            raise InputError("orient='winding' needs a mesh with faces.")
+        vectors = winding_normals(places, faces)
+        return np.where(np.isfinite(vectors).all(axis=1)[:, None], vectors, 0.0)
+    if mode == "propagate":
+        vectors = np.zeros_like(places)
+        vectors[finite] = consistent_normals(places[finite] - places[finite].mean(axis=0))
+        return vectors
+    return None
 
 
 def _resolve_queries(queries: npt.ArrayLike, places: FloatArray) -> tuple[FloatArray, Any]:

@@ -457,6 +457,7 @@ def fit_point(cloud: Array, n: int, reference: Array, settings: Settings, s: Scr
             b = s.c[size - 2]
             if a * a + b * b < 1.0:
                 tilt(s.frame, a, b)
+                face(s.frame, reference[0], reference[1], reference[2])
 
     turns = RETILTS if settings.frame == FRAME_TANGENT else 0
     size = coefficient_count(degree)
@@ -474,6 +475,7 @@ def fit_point(cloud: Array, n: int, reference: Array, settings: Settings, s: Scr
         if turn == turns or not tilt_matters(s.c, degree, residual):
             break
         tilt(s.frame, s.c[size - 3], s.c[size - 2])
+        face(s.frame, reference[0], reference[1], reference[2])
 
     if settings.robust:
         # The l2 fit in the final frame starts the reweighting.
