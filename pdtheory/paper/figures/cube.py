@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from math import factorial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 import synthetic_surfaces
-from pdtheory.paper.figures.measure import angles_in, angles_of, worst_angle
+from pdtheory.paper.figures.measure import angles_in, angles_of, anisotropy, worst_angle
 from pdtheory.paper.figures.outcome import Check, Figure, Job, Outcome, at_most
 from pdtheory.paper.figures.stage import Panel, Strokes, sheet
 from pdtheory.pointset import estimate_directions
@@ -48,16 +47,6 @@ def estimate(samples: PointCloud, **options: Any) -> DirectionField:
         queries=np.concatenate([edges, corners]),
         **options,
     )
-
-
-def anisotropy(field: DirectionField, order: int) -> FloatArray:
-    """Return the amplitude of what depends on the angle in g_k, times R^(k-1), at each point."""
-    rows = field[order]
-    highest, lowest = np.full(len(field), -np.inf), np.full(len(field), np.inf)
-    np.maximum.at(highest, rows.point_index, rows.eigenvalue)
-    np.minimum.at(lowest, rows.point_index, rows.eigenvalue)
-    swing = np.where(np.isfinite(highest), (highest - lowest) / 2, 0.0)
-    return np.asarray(swing / factorial(order) * field.radius ** (order - 1))
 
 
 def compute(job: Job) -> Outcome:
@@ -113,16 +102,19 @@ def panels(mesh: PointCloud, field: DirectionField, title: str = "") -> list[Pan
     """Return one panel of order 2 and one of order 3, lengths by what depends on the angle."""
     result = []
     for order in (2, 3):
-        full = float(np.quantile(anisotropy(field, order), 0.95))
-        result.append(
-            Panel(
-                mesh,
-                [Strokes(field, [order], 0.2, full=full, width=0.14, minima=order == 2)],
-                f"order {order}{title}",
-                azimuth=35,
-                elevation=28,
-            )
+        swing = anisotropy(field, order)
+        full = float(np.quantile(swing, 0.9))
+        strokes = Strokes(
+            field,
+            [order],
+            0.2,
+            full=full,
+            width=0.14,
+            minima=order == 2,
+            least=0.08 * full,
+            amplitude=swing,
         )
+        result.append(Panel(mesh, [strokes], f"order {order}{title}", azimuth=35, elevation=28))
     return result
 
 

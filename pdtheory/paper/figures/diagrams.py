@@ -74,7 +74,7 @@ def _draw(job: Job, outcome: Outcome, folder: Path, order: int, name: str) -> li
     values, found, curve, reach = outcome.scene
     pyplot()
     figure = new_plot(4.4, 4.4)
-    axes = figure.add_axes((0.13, 0.11, 0.84, 0.84))
+    axes = figure.add_axes((0.17, 0.11, 0.80, 0.80))
     axes.fill(curve.real, curve.imag, color=(*colour(order), 0.14), lw=0)
     axes.plot(curve.real, curve.imag, color=colour(order))
     for count, marker, filled in ((order, "o", True), (order - 2, "o", False)):
@@ -83,7 +83,7 @@ def _draw(job: Job, outcome: Outcome, folder: Path, order: int, name: str) -> li
             here.real,
             here.imag,
             marker,
-            ms=2.6,
+            ms=3.0,
             mew=0.5,
             mec=colour(order) if filled else "0.45",
             mfc=colour(order) if filled else "none",
@@ -95,7 +95,7 @@ def _draw(job: Job, outcome: Outcome, folder: Path, order: int, name: str) -> li
     axes.set_aspect("equal")
     axes.set_xlim(-reach, reach)
     axes.set_ylim(-reach, reach)
-    axes.legend(loc="upper right", frameon=True, framealpha=0.9, edgecolor="none")
+    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=2)
     return save(figure, folder / f"{name}.png", vector=True)
 
 

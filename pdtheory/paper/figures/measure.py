@@ -55,6 +55,16 @@ def eigen_residual(field: DirectionField, order: int) -> float:
     return float(np.max(np.abs(slope / order - rows.eigenvalue * w) / scale[point]))
 
 
+def anisotropy(field: DirectionField, order: int) -> FloatArray:
+    """Return the amplitude of what depends on the angle in g_k, times R^(k-1), at each point."""
+    rows = field[order]
+    highest, lowest = np.full(len(field), -np.inf), np.full(len(field), np.inf)
+    np.maximum.at(highest, rows.point_index, rows.eigenvalue)
+    np.minimum.at(lowest, rows.point_index, rows.eigenvalue)
+    swing = np.where(np.isfinite(highest), (highest - lowest) / 2, 0.0)
+    return np.asarray(swing / factorial(order) * field.radius ** (order - 1))
+
+
 def angles_in(
     rows: OrderDirections, point: int, first: npt.ArrayLike, second: npt.ArrayLike
 ) -> FloatArray:

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from pdtheory.conventions import UNANSWERED
-from pdtheory.paper.figures.measure import eigen_residual, refit_difference, turned
+from pdtheory.paper.figures.measure import anisotropy, eigen_residual, refit_difference, turned
 from pdtheory.paper.figures.models import load
 from pdtheory.paper.figures.outcome import Check, Figure, Job, Outcome, at_most
 from pdtheory.paper.figures.stage import Panel, Strokes, sheet
@@ -18,8 +18,6 @@ from pdtheory.pointset import estimate_directions
 from pdtheory.pointset.cloud import FloatArray, PointCloud
 from pdtheory.pointset.field import DirectionField
 from synthetic_surfaces.spread import OVERSAMPLING, thin
-
-DEGREE = 10
 
 #: A direction uncertain by this angle counts half.
 _CERTAIN = np.radians(3.0)
@@ -43,9 +41,10 @@ class Scan:
         Where the camera stands.
     box : ((3,), (3,)) floats or None
         Part of the bounding box shown, from 0 to 1 along each axis; None shows all.
-    telling : float
-        Part of the candidates that may carry strokes: those where order 2 is strongest. 1 takes
-        all; on machined parts a small part stays on the edges.
+    degree : int
+        Degree of the fits.
+    sharp : bool
+        Whether strokes stand on the sharp edges of the mesh only, as suits machined parts.
     title : str
         Stands below the picture.
     """
@@ -58,7 +57,8 @@ class Scan:
     azimuth: float = 25.0
     elevation: float = 12.0
     box: tuple[tuple[float, float, float], tuple[float, float, float]] | None = None
-    telling: float = 1.0
+    degree: int = 10
+    sharp: bool = False
     title: str = ""
 
 
@@ -84,18 +84,35 @@ def sample(mesh: PointCloud, count: int, seed: int) -> PointCloud:
 def telling_order(field: DirectionField, orders: Sequence[int]) -> npt.NDArray[np.int64]:
     """Return for every point the order that stands out there most and is certain.
 
-    That is the order whose strongest maximum is largest when measured by the 80 % quantile of its
-    order over all points, the less so the less certain it is; 0 where there is none. It takes the
-    place of a choice by hand.
+    That is the order whose angular amplitude is largest when measured by the 80 % quantile of its
+    order over all points, the less so the less certain its best maximum is; 0 where there is none.
+    It takes the place of a choice by hand.
     """
     score = np.zeros((len(orders), len(field)))
     for row, order in enumerate(orders):
         maxima = field[order].maxima
-        certain = maxima.strength / (1.0 + (maxima.angle_std / _CERTAIN) ** 2)
-        np.maximum.at(score[row], maxima.point_index, certain)
-        score[row] /= np.quantile(maxima.strength, 0.8) if len(maxima) else 1.0
+        doubt = np.full(len(field), np.inf)
+        np.minimum.at(doubt, maxima.point_index, maxima.angle_std)
+        swing = anisotropy(field, order)
+        score[row] = swing / np.quantile(swing, 0.8) / (1.0 + (doubt / _CERTAIN) ** 2)
     best = np.array(orders)[score.argmax(axis=0)]
     return np.where(score.max(axis=0) > 0, best, 0)
+
+
+def sharp_vertices(mesh: PointCloud) -> FloatArray:
+    """Return the vertices of a mesh where triangles meet at more than 30 degrees, (S, 3)."""
+    assert mesh.faces is not None
+    corners = mesh.points[mesh.faces]
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normal /= np.maximum(np.linalg.norm(normal, axis=1), np.finfo(float).tiny)[:, None]
+    mean = np.zeros_like(mesh.points)
+    np.add.at(mean, mesh.faces.ravel(), np.repeat(normal, 3, axis=0))
+    mean /= np.maximum(np.linalg.norm(mean, axis=1), np.finfo(float).tiny)[:, None]
+    lean = np.ones(len(mesh.points))
+    np.minimum.at(
+        lean, mesh.faces.ravel(), np.einsum("fi,fki->fk", normal, mean[mesh.faces]).ravel()
+    )
+    return mesh.points[lean < np.cos(np.radians(15.0))]
 
 
 def show(scan: Scan, job: Job) -> tuple[Shown, list[Check], dict[str, object]]:
@@ -109,19 +126,14 @@ def show(scan: Scan, job: Job) -> tuple[Shown, list[Check], dict[str, object]]:
     inside = np.all((pool >= box[0]) & (pool <= box[1]), axis=1)
     spots = scan.spots if scan.box is None else scan.spots // 2
     wanted = job.pick(60, spots, spots)
-    candidates = pool[inside][: round(OVERSAMPLING * wanted / scan.telling)]
-    if scan.telling < 1.0:
-        first = estimate_directions(cloud, radius=radius, degree=6, orders=[2], queries=candidates)
-        score = np.zeros(len(candidates))
-        np.maximum.at(score, first[2].point_index, first[2].strength)
-        candidates = candidates[score >= np.quantile(score, 1.0 - scan.telling)]
+    candidates = sharp_vertices(mesh) if scan.sharp else pool[inside][: OVERSAMPLING * wanted]
     wanted = min(wanted, len(candidates))
     spots_at = candidates[thin(candidates, wanted)]
     job.tell(0.3, f"{scan.name}: directions")
 
     def estimate(points: PointCloud) -> DirectionField:
         return estimate_directions(
-            points, radius=radius, degree=DEGREE, orders=scan.orders, queries=spots_at
+            points, radius=radius, degree=scan.degree, orders=scan.orders, queries=spots_at
         )
 
     field = estimate(cloud)
@@ -129,7 +141,7 @@ def show(scan: Scan, job: Job) -> tuple[Shown, list[Check], dict[str, object]]:
     answered = (field.status & int(UNANSWERED)) == 0
     # In the principal frame the coefficients are those of one fit, without a turn to the tangent.
     few = estimate_directions(
-        cloud, radius=radius, degree=DEGREE, orders=scan.orders, queries=spots_at[:4],
+        cloud, radius=radius, degree=scan.degree, orders=scan.orders, queries=spots_at[:4],
         frame="principal",
     )  # fmt: skip
     chosen = telling_order(field, scan.orders)
@@ -212,7 +224,7 @@ def figure(
             shown.append(picture)
         parameters = {
             "samples": job.pick(150_000, 300_000, 5_000_000),
-            "degree": DEGREE,
+            "degree": [scan.degree for scan in scans],
             "radius over diagonal": [scan.radius for scan in scans],
             "orders": [list(scan.orders) for scan in scans],
             "seed": job.seed,
@@ -234,8 +246,8 @@ TEASER = figure(
     "each point shows the order that stands out there.",
     [
         Scan("armadillo", (2, 3, 4, 5, 6), radius=0.03, spots=1500, azimuth=20.0),
-        Scan("fandisk", (2, 3, 4, 5, 6), radius=0.04, spots=420, azimuth=215, elevation=32,
-             telling=0.2),
+        Scan("fandisk", (2, 3, 4, 5, 6), radius=0.04, spots=330, azimuth=215, elevation=32,
+             degree=6, sharp=True),
     ],
     columns=2,
     size=(640, 640),
@@ -271,14 +283,7 @@ ROCKER_ARM = figure(
     "Maxima of order 2 (blue) and 3 (green); order 3 where three smooth parts meet.",
     [
         Scan(
-            "rocker-arm",
-            (2, 3),
-            radius=0.04,
-            spots=900,
-            up="x",
-            azimuth=30,
-            elevation=35,
-            telling=0.7,
+            "rocker-arm", (2, 3), radius=0.04, spots=900, up="x", azimuth=30, elevation=35, degree=6
         )
     ],
     columns=1,
@@ -288,7 +293,18 @@ FANDISK = figure(
     "fandisk",
     "some principal directions computed on the Fandisk",
     "Maxima of order 2 (blue) along edges and of order 3 (green) near corners.",
-    [Scan("fandisk", (2, 3), radius=0.04, spots=420, azimuth=215, elevation=32, telling=0.2)],
+    [
+        Scan(
+            "fandisk",
+            (2, 3),
+            radius=0.04,
+            spots=330,
+            azimuth=215,
+            elevation=32,
+            degree=6,
+            sharp=True,
+        )
+    ],
     columns=1,
     size=(800, 640),
 )

@@ -45,6 +45,8 @@ class Strokes:
         Directions of smaller strength are left out.
     chosen : (P,) int64 or None
         The one order to draw at each point; None draws all.
+    amplitude : (P,) float64 or None
+        What stands for the strength of all directions of a point; None takes their own.
     """
 
     field: DirectionField
@@ -56,12 +58,14 @@ class Strokes:
     width: float = 0.16
     least: float = 0.0
     chosen: npt.NDArray[np.int64] | None = None
+    amplitude: FloatArray | None = None
 
     def mesh(self, surface: PointCloud, order: int) -> PointCloud:
         """Return the strokes of one order as tubes on a surface."""
         rows = self.field[order]
         point = rows.point_index
-        keep = (rows.strength >= self.least) & (
+        strength = rows.strength if self.amplitude is None else self.amplitude[point]
+        keep = (strength >= self.least) & (
             (self.maxima & (rows.kind == Kind.MAXIMUM))
             | (self.minima & (rows.kind == Kind.MINIMUM))
         )
@@ -69,7 +73,7 @@ class Strokes:
             keep &= self.chosen[point] == order
         share = np.ones(len(rows))
         if self.full is not None:
-            share = np.minimum(rows.strength / self.full, _LONGEST)
+            share = np.minimum(strength / self.full, _LONGEST)
         thick = np.where(rows.kind == Kind.MAXIMUM, 1.0, _MINIMUM_WIDTH)
         point, share, thick = point[keep], share[keep], thick[keep]
         return tubes(
