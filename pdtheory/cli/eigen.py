@@ -97,8 +97,8 @@ def _implicit_forms(
 ) -> tuple[list[BinaryForm], dict[str, Any]]:
     import sympy as sp
 
+    from pdtheory.exact.coefficients import check_order
     from pdtheory.exact.expression import parse_expression
-    from pdtheory.exact.faces import check_order
     from pdtheory.exact.jets import implicit_jet
 
     if at is None:

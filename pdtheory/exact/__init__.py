@@ -11,7 +11,7 @@ from pdtheory.exact.complexpairs import ComplexEigenPair, ComplexEigenPairs, com
 from pdtheory.exact.cones import Cone, cone_coefficient, radial_moment
 from pdtheory.exact.eigenpairs import EigenPair, EigenPairs, real_eigenpairs
 from pdtheory.exact.expression import parse_expression
-from pdtheory.exact.faces import BinaryForm, Face, SymmetricTensor, WavejetsRow
+from pdtheory.exact.faces import BinaryForm, Face
 from pdtheory.exact.inverse import (
     Realization,
     realize_maxima,
@@ -23,6 +23,8 @@ from pdtheory.exact.prediction import ConePrediction, predict
 from pdtheory.exact.report import report
 from pdtheory.exact.series import differential_tensor, taylor_forms
 from pdtheory.exact.strata import count_bounds, count_maxima, parametric_discriminant
+from pdtheory.exact.tensor import SymmetricTensor
+from pdtheory.exact.wavejets import WavejetsRow
 
 __all__ = [
     "BinaryForm",

@@ -16,7 +16,8 @@ import sympy as sp
 from sympy.polys.matrices import DomainMatrix
 
 from pdtheory.errors import InputError
-from pdtheory.exact.faces import Face, check_order, is_zero
+from pdtheory.exact.coefficients import check_order, is_zero
+from pdtheory.exact.faces import Face
 
 #: The unknown of the polynomial.
 LAMBDA = sp.Symbol("lambda")

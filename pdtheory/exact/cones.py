@@ -18,7 +18,7 @@ import sympy as sp
 
 from pdtheory.conventions import DEFAULT_DEGREE, SIGMA_RATIO
 from pdtheory.errors import InputError
-from pdtheory.exact.faces import exact
+from pdtheory.exact.coefficients import exact
 
 Weight = Literal["gaussian", "uniform"]
 Measure = Literal["flat", "surface"]

@@ -25,7 +25,8 @@ from pdtheory.exact.algebraic import (
 )
 from pdtheory.exact.balls import Enclosure, Integers, engine, horner
 from pdtheory.exact.charpoly import cosine_squared_polynomial, value_polynomial
-from pdtheory.exact.faces import BinaryForm, Face, check_order, is_zero
+from pdtheory.exact.coefficients import check_order, is_zero
+from pdtheory.exact.faces import BinaryForm, Face
 from pdtheory.exact.roots import Coefficients, form_roots
 
 Outcome = Literal["ok", "isotropic", "vanishing"]

@@ -17,15 +17,11 @@ import sympy as sp
 
 from pdtheory.conventions import wavejets_table
 from pdtheory.errors import ExpressionError, InputError
-from pdtheory.exact.faces import (
-    BinaryForm,
-    SymmetricTensor,
-    WavejetsRow,
-    check_order,
-    exact,
-    is_zero,
-)
+from pdtheory.exact.coefficients import check_order, exact, is_zero
+from pdtheory.exact.faces import BinaryForm
 from pdtheory.exact.series import Expansion, Field, Series
+from pdtheory.exact.tensor import SymmetricTensor
+from pdtheory.exact.wavejets import WavejetsRow
 
 if TYPE_CHECKING:
     from pdtheory.exact.eigenpairs import EigenPairs

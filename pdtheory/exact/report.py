@@ -9,9 +9,10 @@ import sympy as sp
 
 from pdtheory.errors import InputError
 from pdtheory.exact.characteristic import characteristic_polynomial
+from pdtheory.exact.coefficients import MAX_ORDER
 from pdtheory.exact.complexpairs import complex_eigenpairs
 from pdtheory.exact.eigenpairs import EigenPairs, real_eigenpairs
-from pdtheory.exact.faces import MAX_ORDER, BinaryForm, Face
+from pdtheory.exact.faces import BinaryForm, Face
 from pdtheory.exact.series import taylor_forms
 
 

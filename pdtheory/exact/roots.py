@@ -15,7 +15,7 @@ from sympy.core.evalf import PrecisionExhausted
 from pdtheory.errors import ComputationError, InputError
 from pdtheory.exact.algebraic import FIRST_BITS, RealAlgebraic, precisions, primitive
 from pdtheory.exact.balls import Enclosure, engine, horner, real_roots
-from pdtheory.exact.faces import is_zero
+from pdtheory.exact.coefficients import is_zero
 
 _T = sp.Symbol("t")
 

@@ -17,7 +17,9 @@ import sympy as sp
 from sympy.polys.rings import ring
 
 from pdtheory.errors import ExpressionError, InputError
-from pdtheory.exact.faces import BinaryForm, SymmetricTensor, check_order, exact, is_zero
+from pdtheory.exact.coefficients import check_order, exact, is_zero
+from pdtheory.exact.faces import BinaryForm
+from pdtheory.exact.tensor import SymmetricTensor
 
 _Z = sp.Symbol("z")
 

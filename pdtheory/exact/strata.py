@@ -16,8 +16,10 @@ import sympy as sp
 
 from pdtheory.errors import InputError
 from pdtheory.exact.characteristic import sylvester_resultant
-from pdtheory.exact.faces import Face, WavejetsRow, check_order
+from pdtheory.exact.coefficients import check_order
+from pdtheory.exact.faces import Face
 from pdtheory.exact.roots import Coefficients
+from pdtheory.exact.wavejets import WavejetsRow
 
 _T = sp.Symbol("t")
 

@@ -2,7 +2,7 @@
 
 import pytest
 import sympy as sp
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 
 from pdtheory.errors import InputError
 from pdtheory.exact import (
@@ -15,6 +15,7 @@ from pdtheory.exact import (
     real_eigenpairs,
 )
 from pdtheory.exact.characteristic import LAMBDA
+from pdtheory.testing.profiles import examples
 from pdtheory.testing.strategies import forms, forms_with_repeated_roots
 
 x, y, a, b = sp.symbols("x y a b")
@@ -53,7 +54,7 @@ def test_algebraic_coefficients():
         assert abs(sp.N(psi.subs(LAMBDA, pair.eigenvalue), 30)) < 1e-25
 
 
-@settings(max_examples=30)
+@examples
 @given(forms(min_order=2, max_order=6))
 def test_even_orders_by_the_other_resultant(form):
     """Res(F/k, f - lambda (x^2+y^2)^(k/2)) = +- psi |f(1,i)|^2 for even k."""
@@ -81,7 +82,7 @@ def test_even_orders_by_the_other_resultant(form):
             assert sp.simplify(resultant / ours - ratio) == 0
 
 
-@settings(max_examples=50)
+@examples
 @given(forms(min_order=2, max_order=9) | forms_with_repeated_roots(max_order=8))
 def test_eigenvalues_are_the_roots_of_psi(form):
     pairs = complex_eigenpairs(form)
@@ -101,7 +102,7 @@ def test_eigenvalues_are_the_roots_of_psi(form):
         assert poly.degree() < degree
 
 
-@settings(max_examples=60)
+@examples
 @given(forms(min_order=1, max_order=16) | forms_with_repeated_roots(max_order=12))
 def test_the_count_theorem(form):
     """With multiplicity the classes number n_max, the largest frequency present."""
@@ -117,7 +118,7 @@ def test_the_count_theorem(form):
     assert 2 * own_real == sum(p.multiplicity for p in real_eigenpairs(form))
 
 
-@settings(max_examples=25)
+@examples
 @given(forms(min_order=2, max_order=8))
 def test_the_definition_holds(form):
     for pair in complex_eigenpairs(form):

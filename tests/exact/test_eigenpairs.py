@@ -4,11 +4,12 @@ import mpmath
 import numpy as np
 import pytest
 import sympy as sp
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 
 from pdtheory.conventions import Kind
 from pdtheory.errors import InputError
 from pdtheory.exact import BinaryForm, WavejetsRow, balls, real_eigenpairs
+from pdtheory.testing.profiles import examples
 from pdtheory.testing.strategies import any_forms, forms, forms_with_repeated_roots
 
 x, y, t = sp.symbols("x y t")
@@ -109,7 +110,7 @@ def test_isotropic_and_vanishing_are_statuses():
     assert hidden.eigenpairs().status == "vanishing"
 
 
-@settings(max_examples=60)
+@examples
 @given(any_forms(max_order=12))
 def test_certified_against_sympy(form):
     """The number and multiplicity of directions by SymPy's own Sturm sequences."""
@@ -128,7 +129,7 @@ def test_certified_against_sympy(form):
     assert all(a.lower >= 0 and a.upper < 360 for a in angles)
 
 
-@settings(max_examples=60)
+@examples
 @given(any_forms(max_order=16))
 def test_pairs_satisfy_the_definition_at_fifty_digits(form):
     """T v^(k-1) = lambda v and |v| = 1, with mpmath, and the kind by the sign of derivatives."""
@@ -148,7 +149,7 @@ def test_pairs_satisfy_the_definition_at_fifty_digits(form):
                 assert abs(defect) < mpmath.mpf(10) ** -40 * scale * 2**form.order
 
 
-@settings(max_examples=30)
+@examples
 @given(any_forms(max_order=10))
 def test_kind_by_the_first_derivative_that_does_not_vanish(form):
     pairs = real_eigenpairs(form)
@@ -166,7 +167,7 @@ def test_kind_by_the_first_derivative_that_does_not_vanish(form):
             assert p.kind == -int(mpmath.sign(value))
 
 
-@settings(max_examples=40)
+@examples
 @given(forms_with_repeated_roots(max_order=10))
 def test_vanishing_eigenvalues_are_exact_zeros(form):
     for p in real_eigenpairs(form):
@@ -175,7 +176,7 @@ def test_vanishing_eigenvalues_are_exact_zeros(form):
         assert (float(p.eigenvalue_float()) == 0) == p.vanishing
 
 
-@settings(max_examples=30)
+@examples
 @given(forms(min_order=1, max_order=6))
 def test_exact_values_are_the_enclosed_ones(form):
     for p in real_eigenpairs(form):
@@ -188,7 +189,7 @@ def test_exact_values_are_the_enclosed_ones(form):
         assert abs(sp.cos(angle) - c) + abs(sp.sin(angle) - s) < 1e-33
 
 
-@settings(max_examples=40)
+@examples
 @given(forms(min_order=1, max_order=16))
 def test_parity(form):
     pairs = list(real_eigenpairs(form))

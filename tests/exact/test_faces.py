@@ -10,12 +10,14 @@ from hypothesis import strategies as st
 
 from pdtheory.errors import InputError
 from pdtheory.exact import BinaryForm, SymmetricTensor, WavejetsRow
-from pdtheory.exact.faces import MAX_ORDER
+from pdtheory.exact.coefficients import MAX_ORDER
+from pdtheory.testing.profiles import examples
 from pdtheory.testing.strategies import any_forms, forms
 
 x, y, a, b, c = sp.symbols("x y a b c", real=True)
 
 
+@examples
 @given(any_forms(max_order=16))
 def test_conversions_round_trip(form):
     assert form.tensor.form == form
@@ -23,6 +25,7 @@ def test_conversions_round_trip(form):
     assert form.row == form == form.tensor
 
 
+@examples
 @given(forms(max_order=9), st.floats(0, 6.28))
 def test_all_faces_are_the_same_function(form, angle):
     k, v = form.order, (cos(angle), sin(angle))
@@ -58,6 +61,7 @@ def test_contraction_for_symbolic_vectors():
         tensor.contract((x, y), 3)
 
 
+@examples
 @given(forms(min_order=1, max_order=8))
 def test_the_lemma(form):
     k = form.order
@@ -68,6 +72,7 @@ def test_the_lemma(form):
         assert sp.expand(partial - k * entry) == 0
 
 
+@examples
 @given(forms(max_order=10))
 def test_turning_the_frame_multiplies_by_a_phase(form):
     cosine, sine = sp.Rational(3, 5), sp.Rational(-4, 5)
@@ -87,6 +92,7 @@ def test_symbolic_rotation():
         BinaryForm([1, 2]).turn_frame(cosine=1, sine=1)
 
 
+@examples
 @given(forms(min_order=4, max_order=4), forms(min_order=4, max_order=4), st.integers(-5, 5))
 def test_linear(f, g, s):
     assert (f + s * g).row == f.row + g.row * s

@@ -5,13 +5,14 @@ import itertools
 import numpy as np
 import pytest
 import sympy as sp
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from pdtheory.conventions import Kind
 from pdtheory.errors import InputError
 from pdtheory.exact import WavejetsRow, real_eigenpairs
 from pdtheory.exact.inverse import realize_maxima, rosy_kinds, rows_with_critical_lines
+from pdtheory.testing.profiles import examples
 
 
 def numeric_maxima(row, count=7200):
@@ -57,7 +58,7 @@ def test_realized_maxima_are_found_again(order, angles):
     assert_maxima(result.row, angles)
 
 
-@settings(max_examples=25)
+@examples
 @given(st.sets(st.integers(0, 23), min_size=3, max_size=3))
 def test_triples_of_order_three_are_maxima_iff_all_gaps_are_below_180(steps):
     angles = sorted(15 * s for s in steps)

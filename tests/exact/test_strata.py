@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import sympy as sp
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from pdtheory.errors import InputError
@@ -19,13 +19,14 @@ from pdtheory.exact.strata import (
     parametric_discriminant,
     phase_diagram,
 )
+from pdtheory.testing.profiles import examples
 from pdtheory.testing.strategies import any_forms, forms, forms_with_repeated_roots, rationals
 
 a, b, c, d = sp.symbols("a b c d")
 complex_numbers = st.builds(lambda p, q: p + sp.I * q, rationals(), rationals())
 
 
-@settings(max_examples=80)
+@examples
 @given(any_forms(max_order=12))
 def test_sturm_counts_what_the_pairs_list(form):
     assert count_maxima(form) == len(real_eigenpairs(form).maxima)
@@ -43,14 +44,14 @@ def test_sturm_counts_over_algebraic_numbers():
     assert count_maxima(row) == len(row.eigenpairs().maxima) == 3
 
 
-@settings(max_examples=60)
+@examples
 @given(any_forms(max_order=14))
 def test_sturm_hurwitz_bounds(form):
     low, high = count_bounds(form)
     assert low <= count_maxima(form) <= high <= form.order
 
 
-@settings(max_examples=60)
+@examples
 @given(complex_numbers, complex_numbers)
 def test_order_three(p1, p3):
     row = WavejetsRow(3, {1: p1, 3: p3})
@@ -59,7 +60,7 @@ def test_order_three(p1, p3):
     assert count_maxima(row) == (3 if order3_discriminant(row) < 0 else 1)
 
 
-@settings(max_examples=60)
+@examples
 @given(rationals(), complex_numbers, complex_numbers)
 def test_order_four(p0, p2, p4):
     row = WavejetsRow(4, {0: p0, 2: p2, 4: p4})
@@ -79,7 +80,7 @@ def test_closed_discriminants_are_the_resultants():
     assert ratio != 0
 
 
-@settings(max_examples=30)
+@examples
 @given(forms(min_order=2, max_order=7) | forms_with_repeated_roots(max_order=7))
 def test_discriminant_vanishes_where_directions_meet(form):
     derivative = form.angular_derivative()

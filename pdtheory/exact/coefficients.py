@@ -1,0 +1,88 @@
+"""Coefficients: exact numbers and expressions, and when one of them is zero."""
+
+from __future__ import annotations
+
+from typing import Any, Final
+
+import numpy as np
+import sympy as sp
+
+from pdtheory.errors import InputError
+
+#: Largest order of a form; a longer row would not be an answer that anyone could read.
+MAX_ORDER: Final = 256
+
+
+def check_order(order: int, least: int = 0) -> int:
+    """Return the order if it is an integer within the bounds.
+
+    Raises
+    ------
+    InputError
+        If it is below `least` or above `MAX_ORDER`.
+    """
+    if int(order) != order or not least <= order <= MAX_ORDER:
+        raise InputError(
+            f"The order is {order}; it must be an integer from {least} to {MAX_ORDER}."
+        )
+    return int(order)
+
+
+def exact(value: Any) -> Any:
+    """Return a number or expression as exact SymPy; a float becomes the rational that it is.
+
+    Raises
+    ------
+    InputError
+        If the value is not finite or is no number.
+    """
+    if isinstance(value, (float, np.floating)):
+        if not np.isfinite(value):
+            raise InputError(f"The coefficient {value} is not finite.")
+        return sp.Rational(*float(value).as_integer_ratio())
+    if isinstance(value, np.generic):
+        value = value.item()
+    if isinstance(value, str):
+        raise InputError(f"The coefficient {value!r} is text; read it with parse_expression first.")
+    try:
+        expression = sp.sympify(value)
+    except (sp.SympifyError, TypeError) as error:
+        raise InputError(f"The coefficient {value!r} is not a number or an expression.") from error
+    if not isinstance(expression, sp.Expr):
+        raise InputError(f"The coefficient {value!r} is not a number or an expression.")
+    if expression.has(sp.oo, -sp.oo, sp.zoo, sp.nan):
+        raise InputError(f"The coefficient {expression} is not finite.")
+    if expression.has(sp.Float):
+        expression = expression.replace(
+            lambda e: e.is_Float, lambda e: sp.Rational(*_float_ratio(e))
+        )
+    return expression
+
+
+def _float_ratio(value: Any) -> tuple[int, int]:
+    sign, mantissa, exponent, _ = value._mpf_
+    mantissa = -int(mantissa) if sign else int(mantissa)
+    return (mantissa << exponent, 1) if exponent >= 0 else (mantissa, 1 << -exponent)
+
+
+def tidy(value: Any) -> Any:
+    """Return an exact expression expanded, so that equal coefficients look alike."""
+    return value if value.is_Rational else sp.expand(value)
+
+
+def is_zero(value: Any) -> bool:
+    """Decide whether an exact coefficient vanishes.
+
+    Numbers clearly away from zero are told by evaluation; the rest by expansion and then by
+    simplification.
+    """
+    if value.is_Rational:
+        return bool(value == 0)
+    if value.is_zero is not None:
+        return bool(value.is_zero)
+    if not value.free_symbols and abs(value.evalf(20, maxn=300)) > 1e-12:
+        return False
+    expanded = sp.expand(value)
+    if expanded.is_zero is not None:
+        return bool(expanded.is_zero)
+    return bool(sp.simplify(expanded) == 0)
