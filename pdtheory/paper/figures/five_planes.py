@@ -49,7 +49,7 @@ def draw(job: Job, outcome: Outcome, folder: Path) -> list[Path]:
             [Strokes(field, [order], 0.62, width=0.08)],
             f"order {order}: {counts[order]} maxima",
             azimuth=0,
-            elevation=58,
+            elevation=68,
         )
         for order in ORDERS
     ]
