@@ -1,0 +1,159 @@
+"""The zips of the extension: built, validated, installed, used, removed."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import tomllib
+import zipfile
+
+import pytest
+from typer.testing import CliRunner
+
+from pdtheory.blender import packaging
+from pdtheory.errors import ComputationError, InputError, MissingDependencyError
+
+
+@pytest.fixture
+def no_downloads(monkeypatch):
+    """Put an empty wheel where the libraries would be."""
+
+    def run(*command):
+        if "wheel" in command[:8] or "download" in command[:8]:
+            folder = next(
+                (w.removeprefix("--dest=") for w in command if w.startswith("--dest=")), None
+            )
+            name = "library-1.0-py3-none-any.whl"
+            if folder is None:
+                folder = command[command.index("--wheel-dir") + 1]
+                name = "pdtheory-0.1.0-py3-none-any.whl"
+            with zipfile.ZipFile(f"{folder}/{name}", "w") as wheel:
+                wheel.writestr("nothing.txt", "")
+            return ""
+        return real(*command)
+
+    real = packaging._run
+    monkeypatch.setattr(packaging, "_run", run)
+    monkeypatch.setattr(packaging, "_pip", lambda: ["pip"])
+
+
+@pytest.mark.blender
+@pytest.mark.parametrize("runtime", packaging.RUNTIMES)
+@pytest.mark.parametrize("platform", packaging.PLATFORMS)
+def test_zip_has_everything_and_is_valid(tmp_path, no_downloads, runtime, platform):
+    import pdtheory
+
+    package = packaging.build_zip(runtime, platform, tmp_path / "dist")
+    assert (
+        package.name == f"principal_directions-{pdtheory.__version__}-{runtime.tag}-{platform}.zip"
+    )
+    with zipfile.ZipFile(package) as archive:
+        names = set(archive.namelist())
+        manifest = tomllib.loads(archive.read("blender_manifest.toml").decode())
+    assert {"__init__.py", "panels.py", "LICENSE"} <= names
+    assert not any("__pycache__" in name for name in names)
+    assert manifest["platforms"] == [platform]
+    assert manifest["blender_version_min"] == runtime.blender_min
+    assert manifest.get("blender_version_max") == runtime.blender_max
+    assert {name.removeprefix("./") for name in manifest["wheels"]} <= names
+    assert not any("numpy" in name for name in manifest["wheels"])
+
+
+def test_unknown_platform_and_python_are_refused(tmp_path):
+    with pytest.raises(InputError, match="'amiga' is not known"):
+        packaging.build_zip(packaging.RUNTIMES[0], "amiga", tmp_path)
+    with pytest.raises(InputError, match=r"'2.7' is not available"):
+        packaging.runtime_for("2.7")
+    assert packaging.runtime_for("3.14").tag == "cp314"
+
+
+def test_without_tools_a_sentence_says_what_is_missing(monkeypatch):
+    monkeypatch.setattr(packaging, "find_spec", lambda name: None)
+    monkeypatch.setattr(packaging.shutil, "which", lambda name: None)
+    with pytest.raises(MissingDependencyError, match="extension tool"):
+        packaging._extension_tool()
+    with pytest.raises(MissingDependencyError, match="pip or uv"):
+        packaging._pip()
+
+
+def test_a_tool_that_fails_is_a_sentence():
+    with pytest.raises(ComputationError, match="exit code 3|no such thing"):
+        packaging._run(sys.executable, "-c", "import sys; sys.exit('no such thing')")
+
+
+def test_blender_is_found_or_asked_for(tmp_path, monkeypatch):
+    program = tmp_path / "blender"
+    program.write_text("")
+    assert packaging.find_blender(program) == program
+    monkeypatch.setenv("BLENDER", str(program))
+    assert packaging.find_blender() == program
+    with pytest.raises(InputError, match="no such program"):
+        packaging.find_blender(tmp_path / "missing")
+
+
+@pytest.mark.parametrize(("content", "message"), [(None, "no such file"), (b"x", "is no zip")])
+def test_what_is_no_extension_is_not_installed(tmp_path, content, message):
+    package = tmp_path / "package.zip"
+    if content is not None:
+        package.write_bytes(content)
+    with pytest.raises(InputError, match=message):
+        packaging.install_zip(tmp_path / "blender", package)
+
+
+def test_installing_without_a_zip_says_how_to_build_one(tmp_path, monkeypatch):
+    from pdtheory.cli.addon import app
+
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(packaging, "find_blender", lambda given: tmp_path / "blender")
+    monkeypatch.setattr(packaging, "python_of", lambda program: "3.13")
+    result = CliRunner().invoke(app, ["install"])
+    assert isinstance(result.exception, InputError)
+    assert "addon build" in str(result.exception)
+
+
+@pytest.mark.slow
+@pytest.mark.blender
+def test_install_enable_compute_uninstall(tmp_path):
+    """The whole life of the extension in the bpy wheel, from wheels fetched from the registry."""
+    pytest.importorskip("bpy", exc_type=ImportError)
+    from dataclasses import replace
+
+    version = "{}.{}".format(*sys.version_info[:2])
+    # The libraries must go with the NumPy that this bpy runs on.
+    import numpy as np
+
+    runtime = replace(packaging.runtime_for(version), numpy=f"numpy=={np.__version__}")
+    package = packaging.build_zip(runtime, "linux-x64", tmp_path / "dist")
+    home = tmp_path / "home"
+    home.mkdir()
+    script = tmp_path / "life.py"
+    script.write_text(_LIFE)
+    done = subprocess.run(
+        [sys.executable, "-I", str(script), str(package)],
+        env={"BLENDER_USER_RESOURCES": str(home), "PATH": "/usr/bin:/bin", "HOME": str(home)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert "lived happily" in done.stdout, done.stdout[-2000:] + done.stderr[-2000:]
+
+
+_LIFE = """
+import sys
+sys.path = [p for p in sys.path if "main" not in p]
+import bpy
+bpy.ops.wm.read_homefile(use_factory_startup=True)
+bpy.ops.extensions.package_install_files(
+    filepath=sys.argv[1], repo="user_default", enable_on_install=True
+)
+module = "bl_ext.user_default.principal_directions"
+assert module in bpy.context.preferences.addons
+import pdtheory
+assert ".local" in pdtheory.__file__, pdtheory.__file__
+bpy.ops.principal_directions.add_monkey(resolution=12)
+bpy.ops.principal_directions.compute(neighbours=40, degree=4, orders={"2", "3"})
+assert "points answered" in bpy.context.object.principal_directions.summary
+bpy.ops.extensions.package_uninstall(repo_directory="", repo_index=1, pkg_id="principal_directions")
+assert module not in bpy.context.preferences.addons
+print("lived happily")
+"""
