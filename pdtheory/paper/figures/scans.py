@@ -84,7 +84,7 @@ def sample(mesh: PointCloud, count: int, seed: int) -> PointCloud:
 def telling_order(field: DirectionField, orders: Sequence[int]) -> npt.NDArray[np.int64]:
     """Return for every point the order that stands out there most and is certain.
 
-    That is the order whose angular amplitude is largest when measured by the 80 % quantile of its
+    That is the order whose angular amplitude is largest when measured by the 90 % quantile of its
     order over all points, the less so the less certain its best maximum is; 0 where there is none.
     It takes the place of a choice by hand.
     """
@@ -94,7 +94,7 @@ def telling_order(field: DirectionField, orders: Sequence[int]) -> npt.NDArray[n
         doubt = np.full(len(field), np.inf)
         np.minimum.at(doubt, maxima.point_index, maxima.angle_std)
         swing = anisotropy(field, order)
-        score[row] = swing / np.quantile(swing, 0.8) / (1.0 + (doubt / _CERTAIN) ** 2)
+        score[row] = swing / np.quantile(swing, 0.9) / (1.0 + (doubt / _CERTAIN) ** 2)
     best = np.array(orders)[score.argmax(axis=0)]
     return np.where(score.max(axis=0) > 0, best, 0)
 
@@ -246,7 +246,7 @@ TEASER = figure(
     "each point shows the order that stands out there.",
     [
         Scan("armadillo", (2, 3, 4, 5, 6), radius=0.03, spots=1500, azimuth=20.0),
-        Scan("fandisk", (2, 3, 4, 5, 6), radius=0.04, spots=330, azimuth=215, elevation=32,
+        Scan("fandisk", (2, 3, 4, 5, 6), radius=0.04, spots=210, azimuth=215, elevation=32,
              degree=6, sharp=True),
     ],
     columns=2,
@@ -298,7 +298,7 @@ FANDISK = figure(
             "fandisk",
             (2, 3),
             radius=0.04,
-            spots=330,
+            spots=210,
             azimuth=215,
             elevation=32,
             degree=6,

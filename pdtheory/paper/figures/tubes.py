@@ -47,14 +47,18 @@ def tubes(
         return PointCloud(np.empty((0, 3)), faces=np.empty((0, 3), dtype=np.int64))
     along = np.linspace(0.0, 1.0, _PIECES + 1)
     lines = start[:, None] + (length[:, None] * along)[:, :, None] * direction[:, None]
+    # A short step first tells how steeply the surface leaves the tangent plane.
+    short = 0.1 / _PIECES
+    first = drape(surface, start + (short * length)[:, None] * direction, normal, length)
     height = np.zeros(lines.shape[:2])
+    before = height[:, 0] - np.nan_to_num(first) / short / _PIECES
     for piece in range(1, _PIECES + 1):
         # Go on as before, then fall onto the triangles around there.
-        guess = height[:, piece - 1]
-        if piece > 1:
-            guess = 2 * guess - height[:, piece - 2]
+        here = height[:, piece - 1]
+        guess = 2 * here - before
         ahead = lines[:, piece] + np.nan_to_num(guess)[:, None] * normal
         height[:, piece] = guess + drape(surface, ahead, normal, length / 2)
+        before = here
     height = _hold_on(height, lines)
     lines = lines + height[:, :, None] * normal[:, None]
     return _around(lines, direction, normal, radius)
