@@ -102,6 +102,12 @@ def test_wrong_statement_is_refused(name, wrong):
     assert result.verdict is Verdict.NOT_ESTABLISHED
 
 
+@pytest.mark.slow
+def test_every_claim_holds_to_order_24():
+    failed = [found.claim.id for found in run_claims(orders=tuple(range(2, 25))) if not found.holds]
+    assert failed == []
+
+
 def test_texts_are_complete(results):
     for entry in CLAIMS:
         steps = results[entry.id].steps

@@ -88,7 +88,7 @@ def k_rosy(
         results[order] = count_maxima(order, p), _is_star(order, p)
     yield fact(
         r"Conversely $g = \phi_0 + 2\,\mathrm{Re}\, \phi_k e^{i k \theta}$ has $k$ maxima at $2 "
-        r"\pi j / k$: Sturm counts, and $F$ divides into $\mathrm{Im}\,(x + i y)^k$ exactly.",
+        r"\pi j / k$: Sturm counts, and $F$ is a multiple of $\mathrm{Im}\,(x + i y)^k$.",
         all(found == (order, True) for order, found in results.items()),
         results=results,
     )

@@ -217,8 +217,8 @@ def theorem_equivalence(
     F = x * sp.Derivative(_MONOMIAL, y) - y * sp.Derivative(_MONOMIAL, x)
     for name, coordinate, side in zip(("first", "second"), (x, y), normal, strict=True):
         yield identity(
-            rf"The {name} component, on $x^i y^{{k-i}}$ with symbolic $i$ and $k$, divided by the "
-            rf"monomial.",
+            rf"The {name} component, on $x^i y^{{k-i}}$ with symbolic $i$ and $k$, hence by "
+            r"linearity on every form.",
             (x**2 + y**2) * sp.Derivative(_MONOMIAL, coordinate) / k - _MONOMIAL * coordinate,
             factor(k) * F * side,
             over=_MONOMIAL,

@@ -287,14 +287,14 @@ def five_planes_order7(
             creases is not None and five == (shows is Shows.HAPPENS) and counts[0] is not None,
             shows=shows,
             azimuths=azimuths,
-            jumps=[str(jump) for _, jump in creases or []],
+            jumps=[jump for _, jump in creases or []],
             maxima={"uniform": counts[0], "gaussian": counts[1]},
         )
     near, total = _sampled_fraction(8, 200, 7)
     wide, _ = _sampled_fraction(180, 200, 8)
     yield fact(
         r"How often, over 200 random stars within 8 degrees of regular and 200 with random "
-        r"azimuths: with 5 maxima.",
+        r"azimuths (uniform weight): with 5 maxima.",
         near > 9 * total // 10 and total // 4 < wide < total // 2,
         near_regular=f"{near} of {total}",
         general=f"{wide} of {total}",

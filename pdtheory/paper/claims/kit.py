@@ -57,7 +57,20 @@ def _as_exponentials(expression: Any) -> Any:
 
 def fact(text: str, holds: Any, *, shows: Shows = Shows.PROOF, **data: Any) -> Step:
     """Make a step from a condition that was computed."""
-    return Step(shows, text, bool(holds), {name: str(value) for name, value in data.items()})
+    return Step(
+        shows, text, bool(holds), {name: str(_plain(value)) for name, value in data.items()}
+    )
+
+
+def _plain(value: Any) -> Any:
+    """Write fractions inside containers as 1/2."""
+    if isinstance(value, Fraction):
+        return sp.Rational(value)
+    if isinstance(value, dict):
+        return {key: _plain(entry) for key, entry in value.items()}
+    if isinstance(value, (list, tuple)):
+        return type(value)(map(_plain, value))
+    return value
 
 
 def identity(

@@ -115,16 +115,23 @@ def isotropic_vanish(orders: Orders, profile: Any = None) -> Iterator[Step]:
         (x**2 + y**2) ** (m - 1) * x,
         over=(x**2 + y**2) ** m,
     )
-    coefficients = {
-        order: sp.binomial(sp.Rational(1, 2), order // 2) for order in orders if order % 2 == 0
-    }
+    square = sp.Symbol("s", positive=True)
+    sphere = sp.sqrt(1 - square)
+    yield identity(
+        r"Nor do the eigenvalues vanish: on the sphere $z + 1 = \sqrt{1 - s}$, $s = x^2 + y^2$, "
+        r"satisfies $2 (1 - s) z' = -(z + 1)$, so its coefficients obey $(m + 1) c_{m+1} = (m - "
+        r"\frac12) c_m$ and none is 0: every even order has one $\lambda \neq 0$. On the plane $T "
+        r"= 0$ and every vector has $\lambda = 0$.",
+        2 * (1 - square) * sp.Derivative(sphere, square),
+        -sphere,
+    )
+    top = max(orders) // 2 + 1
+    series = sp.Poly(sp.series(sphere, square, 0, top + 1).removeO(), square).all_coeffs()[::-1]
     yield fact(
-        r"On the sphere $z = \sqrt{1 - x^2 - y^2} - 1$ the coefficient of order $2 m$ is $(-1)^m "
-        r"\binom{1/2}{m}$, not 0: $\lambda \neq 0$ for every even order, nothing vanishes. On the "
-        r"plane $T = 0$ and every vector has $\lambda = 0$.",
-        all(value != 0 for value in coefficients.values())
-        and sp.binomial(sp.Rational(1, 2), m).subs(m, 3) != 0,
-        coefficients=coefficients,
+        "Those coefficients for the orders asked for.",
+        all((j + 1) * series[j + 1] == (j - sp.Rational(1, 2)) * series[j] for j in range(top))
+        and all(series),
+        coefficients={2 * j: c for j, c in enumerate(series) if j},
     )
 
 

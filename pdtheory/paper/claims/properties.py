@@ -221,12 +221,12 @@ def polynomial_degree(
         lambda: -n * sp.conjugate(phi),
         lambda: inversion_sign * sp.conjugate(n * phi),
     )
+    exponents = {o: [(o + m) // 2 for m in range(-o, o + 1, 2)] for o in orders}
     yield fact(
         r"$e^{i k \theta} \cdot e^{i n \theta}$ has the even exponent $k + n$, so the polynomial "
         r"of degree $2k$ in $e^{i \theta}$ is one of degree $k$ in $u$.",
-        ((2 * n + 2 * k) / 2).is_integer is True,
-        shows=Shows.PROOF,
-        exponent="(k + n)/2 with n = k - 2 m is k - m",
+        all(found == list(range(o + 1)) for o, found in exponents.items()),
+        exponents_of_u=exponents,
     )
     slope = sp.Symbol("s", positive=True)
     order = i + n
@@ -321,8 +321,8 @@ def count_max_min(
     "order2-curvature",
     place="Section 5, 'Order 2 principal directions'",
     printed=r"The directions of order 2 are the principal curvature directions.",
-    statement=r"They are if $\nabla f(0) = 0$; without it they agree for every $H$ only then, and "
-    r"for one $H \neq 0$ exactly when $\nabla f$ is zero or an eigenvector of $H$.",
+    statement=r"They are if $\nabla f(0) = 0$, and for every $H$ only then. For one $H$ with two "
+    r"different eigenvalues they are exactly if $\nabla f(0)$ is 0 or an eigenvector of $H$.",
     verdict=Verdict.PROVED_STRONGER,
     scope="order 2",
 )
@@ -367,8 +367,8 @@ def order2_curvature(
     ]
     yield fact(
         r"In the eigenvectors' axes of $H = \mathrm{diag}(h_1, h_2)$ the axes are curvature "
-        r"directions exactly if $h_1 p q = h_2 p q = 0$: the gradient is along an axis (or 0), or "
-        r"$H = 0$.",
+        r"directions exactly if $h_1 p q = h_2 p q = 0$, that is, $p q = 0$ as $h_1 \neq h_2$: "
+        r"the gradient is along an axis or 0.",
         sp.expand(axes[0] - h1 * p * q) == 0 and sp.expand(axes[1] + h2 * p * q) == 0,
         at_first_axis=axes[0],
         at_second_axis=axes[1],
@@ -487,16 +487,16 @@ def order3_triples(
 ) -> Iterator[Step]:
     points = [circle_point(h) for h in halves]
     outcome = {}
+    simple = True
     for sign in (1, -1):
         p = form_of_row(3, row_of_lines(3, points, sign))
         outcome[sign] = [is_maximum(3, p, point) for point in points]
-        lines = real_lines(3, critical(3, p))
-        outcome[sign].append(lines == {1: 3})
+        simple = simple and real_lines(3, critical(3, p)) == {1: 3}
     yield fact(
         r"The angles $0$, $2 \arctan\frac1{10}$, $2 \arctan\frac15$ (about 0, 11.4, 22.6 "
         r"degrees): the only rows with these critical lines are $C \prod \sin(\theta - "
         r"\theta_j)$, and for neither sign of $C$ are all three maxima.",
-        all(last and not all(first) for *first, last in outcome.values()),
+        simple and not any(all(maxima) for maxima in outcome.values()),
         maxima_for_each_sign=outcome,
         points=points,
     )

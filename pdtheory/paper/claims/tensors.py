@@ -213,6 +213,17 @@ def e_characteristic_roots(
         -y / k * (x * sp.Derivative(monomial, y) - y * sp.Derivative(monomial, x)),
         over=monomial,
     )
+    h, order = sp.symbols("h k", positive=True)
+    yield identity(
+        r"$\psi(\lambda)$ is the resultant of $T v^{k-1} = \lambda x_0^{k-2} v$ and $v \cdot v = "
+        r"x_0^2$, which are homogeneous (scaling by $h$ multiplies both sides of the first by "
+        r"$h^{k-1}$): it is 0 exactly if they have a common zero $(v, x_0) \neq 0$. For $k \geq "
+        r"3$ and $x_0 = 0$ that would be $T v^{k-1} = 0$, $v \cdot v = 0$, which regular tensors "
+        r"exclude; else $x_0$ can be scaled to 1, and $v$ is an E-eigenvector with the "
+        r"E-eigenvalue $\lambda$.",
+        lambda: h ** (order - 2) * h,
+        h ** (order - 1),
+    )
     yield from _resultant_roots(f, lam)
 
 
@@ -264,9 +275,9 @@ def _resultant_roots(f: Any, lam: Any) -> Iterator[Step]:
         ((-sp.I, sp.sqrt(2)), -sp.I / 2),
     ]
     yield fact(
-        r"For the regular cubic above (its coefficient of $(x + i y)^3$ is not 0) every root "
-        r"of $\psi$ belongs to a complex E-eigenvector; the claim "
-        r"*e-characteristic-polynomial* proves it in general.",
+        r"For example, every root of $\psi$ of the regular cubic above (its coefficient of "
+        r"$(x + i y)^3$ is not 0) belongs to a complex E-eigenvector; see also "
+        r"*e-characteristic-polynomial*.",
         phi_3 != 0
         and all(_eigenpair(f, 3, vector, value) for vector, value in complex_pairs)
         and {value for _, value in complex_pairs} == set(roots),
