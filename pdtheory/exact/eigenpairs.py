@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property, lru_cache, partial
+from math import cos, radians, sin
 from typing import Any, Literal
 
 import sympy as sp
@@ -120,6 +121,15 @@ class EigenPair:
             return Enclosure(Fraction(turn), Fraction(turn))
         tangent, turn = self.tangent, turn + (180 if sign < 0 else 0)
         return _narrow(lambda bits: _angle(tangent, bits).shift(turn), digits)
+
+    def unit_vector(self) -> tuple[float, float]:
+        """Return (cos theta, sin theta) in double precision, without the exact expressions."""
+        angle = self.angle_enclosure(20).middle
+        # Folding to [-45, 45] degrees first keeps the components exact on the axes.
+        quarter = round(angle / 90)
+        rest = radians(float(angle - 90 * quarter))
+        c, s = cos(rest), sin(rest)
+        return ((c, s), (-s, c), (-c, -s), (s, -c))[quarter % 4]
 
     def eigenvalue_enclosure(self, digits: int = 15) -> Enclosure:
         """Return an enclosure of lambda of width at most 10^-digits times max(1, |lambda|)."""

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from math import isfinite
 from typing import Any
 
 import sympy as sp
 
-from pdtheory.errors import InputError
+from pdtheory.errors import ComputationError, InputError
 from pdtheory.exact.characteristic import characteristic_polynomial
 from pdtheory.exact.coefficients import MAX_ORDER
 from pdtheory.exact.complexpairs import complex_eigenpairs
@@ -91,11 +92,11 @@ def order_report(pairs: EigenPairs) -> dict[str, Any]:
     """Return one order as plain data: Wavejets row, pairs and status."""
     row = pairs.form.row
     return {
-        "wavejets": {str(n): [float(re), float(im)] for n, (re, im) in row.parts.items()},
+        "wavejets": {str(n): [_double(re), _double(im)] for n, (re, im) in row.parts.items()},
         "pairs": [
             {
                 "angle_deg": float(p.angle_degrees(17)),
-                "eigenvalue": float(p.eigenvalue_float(17)),
+                "eigenvalue": _double(p.eigenvalue_float(17)),
                 "kind": p.kind.label,
                 "multiplicity": p.multiplicity,
                 "exact": p.exact_text,
@@ -104,6 +105,23 @@ def order_report(pairs: EigenPairs) -> dict[str, Any]:
         ],
         "status": pairs.status,
     }
+
+
+def _double(value: Any) -> float:
+    """Return a number in double precision.
+
+    Raises
+    ------
+    ComputationError
+        If it is beyond the range of doubles, as an eigenvalue of high order may be.
+    """
+    number = float(value)
+    if not isfinite(number):
+        raise ComputationError(
+            f"The number {sp.N(value, 6)} is beyond double precision; ask for the table, which "
+            "has any range, or for a lower order."
+        )
+    return number
 
 
 def report(faces: Iterable[Face]) -> dict[str, Any]:
@@ -129,8 +147,8 @@ def complex_report(face: Face) -> dict[str, Any]:
 
 
 def _split(value: Any) -> list[float]:
-    number = complex(value)
-    return [number.real, number.imag]
+    real, imaginary = value.as_real_imag()
+    return [_double(real), _double(imaginary)]
 
 
 def characteristic_report(face: Face) -> dict[str, Any]:

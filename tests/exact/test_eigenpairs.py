@@ -185,6 +185,7 @@ def test_exact_values_are_the_enclosed_ones(form):
         )
         c, s = (sp.N(e, 40) for e in p.vector)
         assert abs(c**2 + s**2 - 1) < 1e-35
+        assert p.unit_vector() == pytest.approx((float(c), float(s)), abs=1e-15)
         angle = p.angle_degrees(40) * sp.N(sp.pi, 50) / 180
         assert abs(sp.cos(angle) - c) + abs(sp.sin(angle) - s) < 1e-33
 

@@ -116,6 +116,7 @@ def test_cone():
         (["eigen", "x", "--order", "-1"], "-1"),
         (["eigen", "x", "--order", "100000"], "100000"),
         (["eigen", "7"], "vanishes"),
+        (["eigen", "x**200", "--order", "200", "--json"], "beyond double precision"),
         (["eigen", "sqrt(-2)*x"], "not real"),
         (["eigen", "x + pi*y"], "pi"),
         (["eigen", "log(x)"], "no derivative"),
