@@ -23,6 +23,7 @@ from pdtheory.paper.claims import (
     limitations,
     outside,
     properties,
+    regularity,
     related_work,
     tensors,
 )
@@ -53,6 +54,7 @@ CLAIMS: tuple[Claim, ...] = tuple(
         tensors,
         directions,
         properties,
+        regularity,
         estimation,
         experiments,
         limitations,

@@ -10,15 +10,8 @@ from typing import Any
 import sympy as sp
 
 from pdtheory.paper.claims.core import Orders, Section, Step
-from pdtheory.paper.claims.kit import (
-    angular,
-    count_maxima,
-    fact,
-    form_of_row,
-    identity,
-    random_row,
-    t,
-)
+from pdtheory.paper.claims.kit import angular, fact, identity, t
+from pdtheory.paper.claims.sturm import count_maxima, form_of_row, random_row
 
 section = Section("Corrected theorems: how many maxima")
 

@@ -11,7 +11,8 @@ import flint
 import sympy as sp
 
 from pdtheory.paper.claims.core import UP_TO, Orders, Section, Step
-from pdtheory.paper.claims.kit import critical, fact, identity, k, n
+from pdtheory.paper.claims.kit import fact, identity, k, n
+from pdtheory.paper.claims.sturm import critical
 
 section = Section("Corrected theorems: complex E-eigenpairs")
 
@@ -160,10 +161,10 @@ def _reduced(order: int, p: Any, value: Any) -> Any:
 @section.claim(
     "e-characteristic-polynomial",
     place="Correction of Definition 3.2",
-    statement=r"$\psi$ has degree $k$ in $\lambda$ ($k$ even) or in $\lambda^2$ ($k$ odd), its "
-    r"roots are the E-eigenvalues, and with $q = x^2 + y^2$: $\mathrm{Res}(F/k, f - \lambda "
-    r"q^{k/2}) = \pm \psi\, |f(1, i)|^2$ for even $k$, $\mathrm{Res}(F/k, f^2 - \lambda^2 q^k) = "
-    r"\pm \psi\, |f(1, i)|^4$ for odd $k$.",
+    statement=r"If $\phi_k \neq 0$, $\psi$ has degree $k$ in $\lambda$ ($k$ even) or in "
+    r"$\lambda^2$ ($k$ odd), its roots are the E-eigenvalues, and with $q = x^2 + y^2$: "
+    r"$\mathrm{Res}(F/k, f - \lambda q^{k/2}) = \pm \psi\, |f(1, i)|^2$ for even $k$, "
+    r"$\mathrm{Res}(F/k, f^2 - \lambda^2 q^k) = \pm \psi\, |f(1, i)|^4$ for odd $k$.",
     scope=UP_TO,
 )
 def e_characteristic_polynomial(

@@ -11,21 +11,16 @@ from typing import Any
 import sympy as sp
 
 from pdtheory.paper.claims.core import Orders, Section, Step
-from pdtheory.paper.claims.kit import (
+from pdtheory.paper.claims.kit import fact, identity, k, n, product_of_sines, t
+from pdtheory.paper.claims.sturm import (
     circle_point,
     count_maxima,
     critical,
-    fact,
     form_of_row,
-    identity,
     is_maximum,
-    k,
     lines_are_maxima,
-    n,
-    product_of_sines,
     row_of_lines,
     star,
-    t,
 )
 
 section = Section("Corrected theorems: regularity and realizable maxima")

@@ -8,22 +8,8 @@ from typing import Any
 import sympy as sp
 
 from pdtheory.paper.claims.core import Orders, Section, Shows, Step, Verdict
-from pdtheory.paper.claims.kit import (
-    angular,
-    critical,
-    differs,
-    fact,
-    form_of_expression,
-    i,
-    identity,
-    k,
-    n,
-    real_lines,
-    t,
-    tensor_on,
-    x,
-    y,
-)
+from pdtheory.paper.claims.kit import angular, differs, fact, i, identity, k, n, t, tensor_on, x, y
+from pdtheory.paper.claims.sturm import critical, form_of_expression, real_lines
 
 section = Section("Section 4: arbitrary order principal directions")
 

@@ -31,17 +31,13 @@ from pdtheory.paper.claims.fits import (
     gaussian_values,
     uniform_moment,
 )
-from pdtheory.paper.claims.kit import (
+from pdtheory.paper.claims.kit import fact, identity, t, x, y
+from pdtheory.paper.claims.sturm import (
     circle_point,
     count_maxima,
     critical,
-    fact,
     form_of_row,
-    identity,
     random_row,
-    t,
-    x,
-    y,
 )
 
 section = Section("Section 7: experiments")

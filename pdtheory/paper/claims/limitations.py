@@ -9,18 +9,13 @@ from typing import Any
 import sympy as sp
 
 from pdtheory.paper.claims.core import Orders, Section, Shows, Step, Verdict
-from pdtheory.paper.claims.kit import (
-    angular,
+from pdtheory.paper.claims.kit import angular, fact, identity, t, x, y
+from pdtheory.paper.claims.sturm import (
     count_maxima,
     critical,
-    fact,
     form_of_expression,
     form_of_row,
-    identity,
     real_lines,
-    t,
-    x,
-    y,
 )
 
 section = Section("Section 8: limitations")

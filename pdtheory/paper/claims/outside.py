@@ -12,18 +12,8 @@ import flint
 import sympy as sp
 
 from pdtheory.paper.claims.core import CONFIGURATION, Orders, Section, Step
-from pdtheory.paper.claims.kit import (
-    angular,
-    count_maxima,
-    critical,
-    fact,
-    form_of_expression,
-    identity,
-    real_lines,
-    t,
-    x,
-    y,
-)
+from pdtheory.paper.claims.kit import angular, fact, identity, t, x, y
+from pdtheory.paper.claims.sturm import count_maxima, critical, form_of_expression, real_lines
 
 section = Section("Cases from elsewhere")
 
