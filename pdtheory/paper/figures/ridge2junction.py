@@ -109,16 +109,16 @@ def draw(job: Job, outcome: Outcome, folder: Path) -> list[Path]:
                     Strokes(
                         field,
                         [order],
-                        0.06,
+                        0.08,
                         full=full,
-                        width=0.2,
-                        least=0.1 * full,
+                        width=0.16,
+                        least=0.22 * full,
                         minima=order == 2,
                     )
                 ],
                 f"order {order}, step {step}",
-                azimuth=15,
-                elevation=50,
+                azimuth=203,
+                elevation=46,
             )
             for step, mesh, field in outcome.scene
         ]

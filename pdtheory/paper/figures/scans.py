@@ -258,9 +258,9 @@ ARMADILLO = figure(
     "Maxima of orders 2, 3 and 4 on torso and leg of the Armadillo: order 2 along valleys, order 4 "
     "where valleys cross, order 3 where three meet.",
     [
-        Scan("armadillo", (2, 3, 4), radius=0.025, spots=3600, azimuth=15.0, elevation=10,
-             box=((0.2, 0.42, 0.0), (0.8, 0.82, 0.5)), title="torso"),
-        Scan("armadillo", (2, 3, 4), radius=0.025, spots=3600, azimuth=15.0, elevation=8,
+        Scan("armadillo", (2, 3, 4), radius=0.025, spots=1300, azimuth=15.0, elevation=10,
+             box=((0.22, 0.38, 0.45), (0.78, 0.74, 1.0)), title="torso"),
+        Scan("armadillo", (2, 3, 4), radius=0.025, spots=1300, azimuth=15.0, elevation=8,
              box=((0.0, 0.0, 0.0), (0.5, 0.45, 1.0)), title="leg"),
     ],
     columns=2,
