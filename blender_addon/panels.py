@@ -124,6 +124,9 @@ class DIRECTIONS_PT_drawing(_DirectionsPanel, bpy.types.Panel):  # noqa: N801
             for name in names:
                 _prop(column, modifier, inputs, name)
         column = layout.column(align=True)
+        if context.space_data.shading.type == "SOLID":
+            # The dark outline of Solid shading swallows the colours of thin strokes.
+            column.prop(context.space_data.shading, "show_object_outline", text="Outline in View")
         for order in modifier.id_data.get(ORDERS_KEY, ()):
             material = compat.get_input(modifier, f"Material {order}")
             row = column.row(align=True)

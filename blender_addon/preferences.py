@@ -14,7 +14,7 @@ class DirectionsPreferences(bpy.types.AddonPreferences):
 
     threads: IntProperty(
         name="Threads",
-        description="Threads that compute; 0 leaves one core to the window",
+        description="Threads that compute; 0 leaves one core to the window, but takes at least two",
         min=0,
         max=256,
         default=0,
@@ -28,7 +28,7 @@ def thread_count() -> int:
     """Return how many threads may compute."""
     addon = bpy.context.preferences.addons.get(__package__)
     chosen = addon.preferences.threads if addon is not None and addon.preferences else 0
-    return chosen or max(1, (os.cpu_count() or 2) - 1)
+    return chosen or max(2, (os.cpu_count() or 2) - 1)
 
 
 def _keep_kernels() -> None:

@@ -90,7 +90,7 @@ def _interface(group: Any) -> None:
     huge = 3.4e38
     number("Length", 0.1, 0.0, huge, "Length of a stroke from its point", "DISTANCE")
     number("By Strength", 0.0, 0.0, 1.0, "0 draws equal strokes, 1 lets strength set the length")
-    number("Width", 0.25, 0.0, 1.0, "Thickness of a stroke, as a part of the length")
+    number("Width", 0.32, 0.0, 1.0, "Thickness of a stroke, as a part of the length")
     number("Taper", 0.35, 0.0, 1.0, "How much thinner a stroke gets towards its tip")
     number("Lift", 0.06, -1.0, 1.0, "Height above the surface, as a part of the length")
     switch("Follow Surface", True, "Bend strokes along the curvature of the surface")

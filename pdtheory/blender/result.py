@@ -52,7 +52,7 @@ def show_result(
     field: DirectionField,
     data: GlyphData | None = None,
     *,
-    strokes: int = 400,
+    strokes: int = 300,
     suffix: str = "",
 ) -> Any:
     """Put a field onto the object it was computed on, in place of an earlier one.
@@ -286,7 +286,7 @@ def _show_on_surface(thing: Any, source: Source, field: DirectionField) -> None:
 
 
 def describe(field: DirectionField, *, loose: int = 0) -> list[str]:
-    """Put a result into sentences: points, what could not be answered and why, strengths.
+    """Put a result into sentences: points, what could not be answered and why, median strengths.
 
     Parameters
     ----------
@@ -317,8 +317,8 @@ def describe(field: DirectionField, *, loose: int = 0) -> list[str]:
         rows = field[order]
         if len(rows):
             lines.append(
-                f"Order {order}: median strength {float(np.median(rows.strength)):.3g}, "
-                f"uncertainty {np.degrees(float(np.nanmedian(rows.angle_std))):.2g}°"
+                f"Order {order}: strength {float(np.median(rows.strength)):.2g}, "
+                f"± {np.degrees(float(np.nanmedian(rows.angle_std))):.2g}°"
             )
         else:
             lines.append(f"Order {order}: no directions")

@@ -30,9 +30,9 @@ def surface_material() -> Any:
         material = bpy.data.materials.new(name)
         tree = compat.enable_nodes(material)
         surface = next(node for node in tree.nodes if node.type == "BSDF_PRINCIPLED")
-        surface.inputs["Base Color"].default_value = (0.5, 0.5, 0.5, 1.0)
+        surface.inputs["Base Color"].default_value = (0.37, 0.37, 0.37, 1.0)
         surface.inputs["Roughness"].default_value = 0.55
-        material.diffuse_color = (0.5, 0.5, 0.5, 1.0)
+        material.diffuse_color = (0.37, 0.37, 0.37, 1.0)
     return material
 
 

@@ -77,7 +77,7 @@ def test_without_tools_a_sentence_says_what_is_missing(monkeypatch):
 
 
 def test_a_tool_that_fails_is_a_sentence():
-    with pytest.raises(ComputationError, match="exit code 3|no such thing"):
+    with pytest.raises(ComputationError, match="no such thing"):
         packaging._run(sys.executable, "-c", "import sys; sys.exit('no such thing')")
 
 
@@ -140,7 +140,9 @@ def test_install_enable_compute_uninstall(tmp_path):
 
 _LIFE = """
 import sys
-sys.path = [p for p in sys.path if "main" not in p]
+import os
+# The wheels of the zip are to be used, not the source this test comes from.
+sys.path = [p for p in sys.path if not os.path.isdir(os.path.join(p, "blender_addon"))]
 import bpy
 bpy.ops.wm.read_homefile(use_factory_startup=True)
 bpy.ops.extensions.package_install_files(

@@ -1,4 +1,4 @@
-"""A real Blender with its window: the built zip installed, the button clicked, the picture looked at.
+"""A real Blender with its window: the zip installed, the button clicked, the picture looked at.
 
 The environment variable PDTHEORY_REAL_BLENDER names a program that runs Blenders on a virtual
 screen: ``PROGRAM root SUITE`` prints the folder of one, ``PROGRAM run SUITE ARG...`` runs its

@@ -21,6 +21,11 @@ LOUD = (1.0, 0.0, 1.0)
 report = {"gaps": []}
 
 
+def paint_buttons(colour):
+    """Give all operator buttons a colour that can be found in a screenshot."""
+    bpy.context.preferences.themes[0].user_interface.wcol_tool.inner = (*colour, 1.0)
+
+
 def shot(name):
     path = FOLDER / f"{name}.png"
     subprocess.run(["import", "-window", "root", str(path)], check=True)
@@ -97,6 +102,7 @@ def prepare(resolution):
     area.spaces.active.overlay.show_floor = False
     area.spaces.active.shading.light = "STUDIO"
     area.spaces.active.shading.color_type = "MATERIAL"
+    area.spaces.active.shading.show_object_outline = False
     with bpy.context.temp_override(area=area, region=region):
         bpy.ops.view3d.view_selected()
     space = area.spaces.active
@@ -159,7 +165,10 @@ def scenario_compute():
     yield 1.5
     report["summary"] = bpy.context.object.principal_directions.summary
     report["strokes"] = strokes()
+    paint_buttons(QUIET)
+    yield 1.0
     shot("result")
+    paint_buttons(LOUD)
     xdotool("mousemove", 400, 400, "key", "ctrl+z")
     yield 1.5
     report["after_undo"] = strokes()
@@ -254,6 +263,7 @@ def play():
 
 
 bpy.context.preferences.view.show_splash = False
-bpy.context.preferences.themes[0].user_interface.wcol_tool.inner = (*LOUD, 1.0)
-bpy.context.preferences.themes[0].user_interface.wcol_tool.inner_sel = (*LOUD, 1.0)
+QUIET = (0.33, 0.33, 0.33)
+bpy.context.preferences.use_preferences_save = False
+paint_buttons(LOUD)
 bpy.app.timers.register(play(), first_interval=2.0, persistent=True)
