@@ -100,8 +100,9 @@ def _is_function(side: Any) -> bool:
 def differs(text: str, left: Any, right: Any, *, shows: Shows) -> Step:
     """Make a step that holds if `left` and `right` are proved to differ."""
     rest = vanish(left - right)
-    holds = rest.is_zero is False or (rest != 0 and bool(rest.free_symbols))
-    return fact(text, holds, shows=shows, inequality=f"{left} != {right}", difference=rest)
+    return fact(
+        text, rest.is_zero is False, shows=shows, inequality=f"{left} != {right}", difference=rest
+    )
 
 
 def angular(f: Any, a: Any = x, b: Any = y) -> Any:
