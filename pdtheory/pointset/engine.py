@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -30,8 +31,8 @@ class Engine:
         Finite points, centred.
     queries : (Q, 3) float64
         Where to compute, in the same coordinates; may be non-finite.
-    references : (Q, 3) float64
-        Vectors on the side of the normals.
+    references : callable
+        Returns (Q, 3) vectors on the side of the normals.
     choice : Choice
         The neighbourhoods.
     orders : (J,) int64
@@ -47,13 +48,17 @@ class Engine:
         The order in which queries are visited: neighbours in space follow one another.
     points, choice, orders, settings
         As given.
+    references : (Q, 3) float64
+        What the call returned.
+    queries : (Q, 3) float64
+        As given, with zeros in place of those that are not finite.
     """
 
     def __init__(
         self,
         points: FloatArray,
         queries: FloatArray,
-        references: FloatArray,
+        references: Callable[[], FloatArray],
         choice: Choice,
         orders: IntArray,
         settings: Settings,
@@ -81,9 +86,9 @@ class Engine:
         else:
             refuse_crowd(int(np.diff(self._grid.starts).max()), choice)
         self._valid = np.isfinite(queries).all(axis=1)
-        self._queries = np.where(self._valid[:, None], queries, 0.0)
-        self._references = references
-        self.visit = cell_order(self._grid, self._queries)
+        self.queries = np.where(self._valid[:, None], queries, 0.0)
+        self.references = references()
+        self.visit = cell_order(self._grid, self.queries)
 
     def rows(self, size: int) -> IntArray:
         """Return the first output row of each order for a chunk of `size` points."""
@@ -96,7 +101,7 @@ class Engine:
     def work(self, start: int, stop: int, flag: Flag) -> tuple[FloatArray, Output]:
         """Compute the queries ``visit[start:stop]``; returns their radii and the results."""
         where = self.visit[start:stop]
-        queries = self._queries[where]
+        queries = self.queries[where]
         size = len(where)
         if self._tree is None:
             lists = np.empty((0, 0), np.int64)
@@ -108,7 +113,7 @@ class Engine:
             self._grid,
             queries,
             radii,
-            self._references[where],
+            self.references[where],
             lists,
             self._valid[where],
             self.orders,

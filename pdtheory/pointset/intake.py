@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -32,8 +33,9 @@ class Intake:
         Queries, centred; rows may be non-finite.
     places : (Q, 3) float64
         Queries as given.
-    references : (Q, 3) float64
-        Vectors on the side of the normals; away from the centre if nothing says the side.
+    references : callable
+        Returns (Q, 3) vectors on the side of the normals; away from the centre if nothing says the
+        side. A call, since handing signs on takes long and other things may be refused before.
     oriented : bool
         Whether something does.
     planes : bool
@@ -49,7 +51,7 @@ class Intake:
     points: FloatArray
     queries: FloatArray
     places: FloatArray
-    references: FloatArray
+    references: Callable[[], FloatArray]
     oriented: bool
     planes: bool
     diagonal: float
@@ -112,21 +114,27 @@ def take_in(
     wanted, index = (places, None) if queries is None else _resolve_queries(queries, places)
     shifted = wanted - centre
     mode = _mode(orient, normals, faces, queries is None)
-    sides = _sides(mode, places, normals, faces, finite)
-    if sides is None:
-        references, oriented = np.where(np.isfinite(shifted), shifted, 0.0), False
-    elif sides.shape == (3,):
-        references, oriented = np.where(np.isfinite(wanted), sides - wanted, 0.0), True
-    else:
-        if queries is not None and index is None:
-            index = _nearest_index(kept, np.flatnonzero(finite), wanted)
-        references, oriented = sides if index is None else sides[index], True
+
+    def references() -> FloatArray:
+        sides = _sides(mode, places, normals, faces, finite)
+        if sides is None:
+            result = np.where(np.isfinite(shifted), shifted, 0.0)
+        elif sides.shape == (3,):
+            result = np.where(np.isfinite(wanted), sides - wanted, 0.0)
+        elif queries is None:
+            result = sides
+        elif index is not None:
+            result = sides[index]
+        else:
+            result = sides[_nearest_index(kept, np.flatnonzero(finite), wanted)]
+        return np.ascontiguousarray(result)
+
     return Intake(
         points=kept - centre,
         queries=shifted,
         places=wanted,
-        references=np.ascontiguousarray(references),
-        oriented=oriented,
+        references=references,
+        oriented=not (isinstance(mode, str) and mode == "none"),
         planes=isinstance(mode, str) and mode in ("normals", "winding"),
         diagonal=diagonal,
         rounding=roundoff * float(np.abs(kept).max()),

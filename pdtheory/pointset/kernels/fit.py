@@ -43,7 +43,8 @@ REFINE_PIVOT = 1e-4
 #: Tilts with the full fit.
 RETILTS = 8
 #: Effect of a remaining tilt that is tolerated, as a fraction of the residual and of the height.
-TILT_OF_RESIDUAL, TILT_OF_HEIGHT = 0.1, 1e-13
+#: With l1 the residual may be that of outliers, so only a tenth of that.
+TILT_OF_RESIDUAL, TILT_OF_HEIGHT = 0.3, 1e-13
 #: Distance of the weighted centroid, as a fraction of the radius, of a one-sided neighbourhood.
 ONE_SIDED = 0.18
 #: Iterative reweighting: most rounds, relative change at which it stops, smallest residual as a
@@ -461,6 +462,7 @@ def fit_point(cloud: Array, n: int, reference: Array, settings: Settings, s: Scr
 
     turns = RETILTS if settings.frame == FRAME_TANGENT else 0
     size = coefficient_count(degree)
+    trusted = 0.1 if settings.robust else 1.0
     for turn in range(turns + 1):
         cx, cy, weight = project(cloud, n, s.frame, settings.planar)
         reached, pivot = regress(cloud, cloud[4], n, degree, s)
@@ -472,7 +474,7 @@ def fit_point(cloud: Array, n: int, reference: Array, settings: Settings, s: Scr
             refine(cloud, cloud[4], n, degree, first, s)
         residual = misfit(cloud, cloud[4], n, degree, weight, s)
         shift(s.c, degree, cx, cy, s.table)
-        if turn == turns or not tilt_matters(s.c, degree, residual):
+        if turn == turns or not tilt_matters(s.c, degree, trusted * residual):
             break
         tilt(s.frame, s.c[size - 3], s.c[size - 2])
         face(s.frame, reference[0], reference[1], reference[2])

@@ -23,14 +23,12 @@ DEPTH = 18
 @inner
 def evaluate(re: Array, im: Array, order: int, theta: float) -> tuple[float, float]:
     """Return g'(theta) and g''(theta) for coefficients re + i im at n = order mod 2, +2, ..."""
-    c2 = np.cos(2.0 * theta)
-    s2 = np.sin(2.0 * theta)
-    if order % 2:
-        c = np.cos(theta)
-        s = np.sin(theta)
-    else:
-        c = 1.0
-        s = 0.0
+    c1 = np.cos(theta)
+    s1 = np.sin(theta)
+    c2 = c1 * c1 - s1 * s1
+    s2 = 2.0 * c1 * s1
+    c = c1 if order % 2 else 1.0
+    s = s1 if order % 2 else 0.0
     first = 0.0
     second = 0.0
     for j in range(order // 2 + 1):
@@ -44,12 +42,17 @@ def evaluate(re: Array, im: Array, order: int, theta: float) -> tuple[float, flo
 @inner
 def value(re: Array, im: Array, order: int, theta: float) -> float:
     """Return g(theta)."""
-    total = re[0] if order % 2 == 0 else 0.0
+    c1 = np.cos(theta)
+    s1 = np.sin(theta)
+    c2 = c1 * c1 - s1 * s1
+    s2 = 2.0 * c1 * s1
+    c = c1 if order % 2 else 1.0
+    s = s1 if order % 2 else 0.0
+    total = 0.0
     for j in range(order // 2 + 1):
-        n = 2 * j + order % 2
-        if n > 0:
-            total += 2.0 * (re[j] * np.cos(n * theta) - im[j] * np.sin(n * theta))
-    return total
+        total += 2.0 * (re[j] * c - im[j] * s)
+        c, s = c * c2 - s * s2, s * c2 + c * s2
+    return total if order % 2 else total - re[0]
 
 
 @inner

@@ -1,0 +1,223 @@
+"""Speed of the point-set engine against peers, in the same run.
+
+    uv run python benchmarks/pointset.py [--build FOLDER] [--peers PYTHON]
+
+Every figure is the median of five timings by processor time of one thread, unless said otherwise;
+peers see the same neighbourhoods. CGAL is used if g++ and its headers are there (Debian: g++,
+libcgal-dev, libeigen3-dev), libigl if `--peers` names a Python that has it. Compiled peers go to
+the folder `--build`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import shutil
+import statistics
+import subprocess
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from pdtheory.pointset import estimate_directions
+
+HERE = Path(__file__).parent
+REPEATS = 5
+ORDERS = tuple(range(2, 11))
+
+
+def torus_points(count: int, seed: int = 1) -> tuple[np.ndarray, np.ndarray]:
+    """Uniform points on a torus with radii 1 and 0.4, and their normals."""
+    rng = np.random.default_rng(seed)
+    v = np.empty(0)
+    while len(v) < count:
+        trial = 2 * np.pi * rng.random(count)
+        v = np.append(v, trial[rng.random(count) < (1 + 0.4 * np.cos(trial)) / 1.4])
+    v, u = v[:count], 2 * np.pi * rng.random(count)
+    ring = 1 + 0.4 * np.cos(v)
+    points = np.column_stack([ring * np.cos(u), ring * np.sin(u), 0.4 * np.sin(v)])
+    normals = np.column_stack([np.cos(v) * np.cos(u), np.cos(v) * np.sin(u), np.sin(v)])
+    return points, normals
+
+
+def radius_for(neighbours: int, count: int) -> float:
+    """Radius that holds so many of `count` uniform points on the torus on average."""
+    return float(np.sqrt(neighbours * 4 * np.pi**2 * 0.4 / count / np.pi))
+
+
+def median_time(action, clock=time.process_time) -> float:
+    """Median of five timings."""
+    times = []
+    for _ in range(REPEATS):
+        start = clock()
+        action()
+        times.append(clock() - start)
+    return statistics.median(times)
+
+
+def ours(points, normals, neighbours, degree, orders, queries=1000, **options) -> float:
+    """Seconds per point, end to end, one thread; the cost that does not grow is taken off."""
+    radius = radius_for(neighbours, len(points))
+    how = {"radius": radius, "degree": degree, "orders": orders, "normals": normals, "threads": 1}
+
+    def run(count):
+        return lambda: estimate_directions(points, queries=np.arange(count), **(how | options))
+
+    run(10)()
+    return (median_time(run(queries)) - median_time(run(10))) / (queries - 10)
+
+
+def build_cgal(folder: Path) -> Path | None:
+    """Compile the CGAL driver; None if that is not possible here."""
+    if shutil.which("g++") is None or not Path("/usr/include/CGAL").exists():
+        return None
+    program = folder / "jet_fitting"
+    if not program.exists():
+        command = ["g++", "-O3", "-march=native", "-DNDEBUG", "-DCGAL_EIGEN3_ENABLED"]
+        command += ["-I/usr/include/eigen3", str(HERE / "peers_pointset" / "jet_fitting.cpp")]
+        subprocess.run([*command, "-o", str(program), "-lgmp", "-lmpfr"], check=True)
+    return program
+
+
+def cgal(program: Path, points, neighbours: int, degree: int, solver: str, queries: int) -> float:
+    """Seconds per point of CGAL, fitting only, on the neighbourhoods of the same radius."""
+    tree = cKDTree(points)
+    lists = tree.query_ball_point(points[:queries], radius_for(neighbours, len(points)))
+    text = [str(queries)]
+    for i, members in enumerate(lists):
+        members = [i, *(j for j in members if j != i)]
+        text.append(str(len(members)))
+        text += [" ".join(map(repr, map(float, points[j]))) for j in members]
+    times = []
+    for _ in range(REPEATS):
+        done = subprocess.run(
+            [program, str(degree), solver], input="\n".join(text), capture_output=True, text=True,
+            check=True,
+        )  # fmt: skip
+        times.append(float(done.stderr) / queries)
+    return statistics.median(times)
+
+
+def torus_mesh(count: int) -> tuple[np.ndarray, np.ndarray]:
+    """A regular triangulation of the torus with count x count vertices."""
+    u, v = np.meshgrid(np.arange(count), np.arange(count), indexing="ij")
+    a, b = 2 * np.pi * u.ravel() / count, 2 * np.pi * v.ravel() / count
+    ring = 1 + 0.4 * np.cos(b)
+    points = np.column_stack([ring * np.cos(a), ring * np.sin(a), 0.4 * np.sin(b)])
+    corner = (u * count + v).ravel()
+    right = ((u + 1) % count * count + v).ravel()
+    up = (u * count + (v + 1) % count).ravel()
+    across = ((u + 1) % count * count + (v + 1) % count).ravel()
+    faces = np.concatenate([np.column_stack([corner, right, across]),
+                            np.column_stack([corner, across, up])])  # fmt: skip
+    return points, faces
+
+
+IGL = """
+import json, sys, time
+import igl, numpy as np
+data = np.load(sys.argv[1])
+times = []
+for _ in range(5):
+    start = time.process_time()
+    result = igl.principal_curvature(data["points"], data["faces"], radius=5)
+    times.append(time.process_time() - start)
+curvatures = np.sort(np.column_stack([np.ravel(result[2]), np.ravel(result[3])]), axis=1)
+np.save(sys.argv[2], curvatures)
+print(json.dumps(sorted(times)[2] / len(data["points"])))
+"""
+
+
+def igl_row(python: str, folder: Path) -> dict[str, float]:
+    """libigl with 5 rings against K = 4 on 100 neighbours, on the vertices of one mesh."""
+    points, faces = torus_mesh(140)
+    np.savez(folder / "mesh.npz", points=points, faces=faces)
+    done = subprocess.run(
+        [python, "-c", IGL, str(folder / "mesh.npz"), str(folder / "igl.npy")],
+        capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    theirs = json.loads(done.stdout)
+    normals = points - np.column_stack(
+        [points[:, :2] / np.linalg.norm(points[:, :2], axis=1, keepdims=True), 0 * points[:, :1]]
+    )
+    how = {"neighbours": 100, "degree": 4, "orders": (2,), "normals": normals, "threads": 1}
+    field = estimate_directions(points, uncertainty=False, **how)
+    seconds = median_time(lambda: estimate_directions(points, uncertainty=False, **how))
+    ring = np.linalg.norm(points[:, :2], axis=1)
+    exact = np.sort(np.column_stack([np.full(len(points), 2.5), (ring - 1) / 0.4 / ring]), axis=1)
+    curvatures = np.load(folder / "igl.npy")
+    if np.median(curvatures) < 0:
+        curvatures = np.sort(-curvatures, axis=1)
+    found = np.sort(-np.column_stack(
+        [field[2].maxima.eigenvalue[::2], field[2].minima.eigenvalue[::2]]), axis=1)  # fmt: skip
+    return {
+        "libigl us": 1e6 * theirs,
+        "ours us": 1e6 * seconds / len(points),
+        "ratio": theirs * len(points) / seconds,
+        "libigl median error": float(np.median(np.abs(curvatures - exact))),
+        "ours median error": float(np.median(np.abs(found - exact))),
+    }
+
+
+def dgemm_rate() -> float:
+    """Floating-point operations per second of a matrix product, by processor time."""
+    a = np.random.default_rng(0).random((700, 700))
+    return 2 * 700**3 / median_time(lambda: a @ a)
+
+
+def show(name: str, row: dict[str, float]) -> None:
+    """Print one row."""
+    print(f"{name:34s} " + "  ".join(f"{k} {v:.4g}" for k, v in row.items()), flush=True)
+
+
+def main() -> None:
+    """Run all rows."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--build", type=Path, default=Path(tempfile.gettempdir()))
+    parser.add_argument("--peers", help="a Python with libigl")
+    parser.add_argument("--queries", type=int, default=400)
+    options = parser.parse_args()
+    points, normals = torus_points(20_000)
+    program = build_cgal(options.build)
+    plain = {"uncertainty": False}
+    for name, count, degree, orders, solver in (
+        ("K=10 N=300, CGAL SVD", 300, 10, ORDERS, "svd"),
+        ("K=10 N=100, CGAL SVD", 100, 10, ORDERS, "svd"),
+        ("K=10 N=300, CGAL QR, fit only", 300, 10, (1,), "qr"),
+        ("K=4 N=300, CGAL SVD", 300, 4, (2, 3, 4), "svd"),
+    ):
+        fit_only = {"frame": "principal"} if orders == (1,) else {}
+        mine = ours(points, normals, count, degree, orders, **plain, **fit_only)
+        row = {"ours us": 1e6 * mine}
+        if program is not None:
+            theirs = cgal(program, points, count, degree, solver, options.queries)
+            row |= {"CGAL us": 1e6 * theirs, "ratio": theirs / mine}
+        show(name, row)
+    if options.peers:
+        show("K=4 N=100, libigl 5 rings", igl_row(options.peers, options.build))
+    bars = ours(points, normals, 300, 10, ORDERS)
+    bare = ours(points, normals, 300, 10, ORDERS, **plain)
+    show("error bars, K=10 N=300", {"us with": 1e6 * bars, "us without": 1e6 * bare})
+    robust = ours(points, normals, 300, 10, ORDERS, queries=200, norm="l1", **plain)
+    show("l1 over l2, K=10 N=300", {"us": 1e6 * robust, "ratio": robust / bare})
+    # Sums for 231 moments and 66 heights, the factor of a 66 x 66 matrix, and two solves.
+    operations = 2 * 300 * (231 + 66) + 66**3 / 3 + 4 * 66**2
+    show(
+        "fit, of the speed of a matrix product", {"percent": 100 * operations / dgemm_rate() / bare}
+    )
+    how = {"radius": radius_for(300, len(points)), "degree": 10, "orders": ORDERS}
+    for threads in (1, 2):
+        seconds = median_time(
+            lambda t=threads: estimate_directions(
+                points, queries=np.arange(3000), normals=normals, threads=t, **how
+            ),
+            time.perf_counter,
+        )
+        show(f"{threads} threads, wall clock", {"us a point": 1e6 * seconds / 3000})
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,71 @@
+"""Runs to a folder: the same bits as in memory, also after an interruption."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from pdtheory.errors import Cancelled, FileFormatError, InputError
+from pdtheory.pointset import estimate_directions, estimate_to_disk, load_parts, stream
+from tests.pointset.surfaces import torus
+
+HOW = {"radius": 0.3, "degree": 5, "orders": (2, 3)}
+
+
+@pytest.fixture(autouse=True)
+def small_parts(monkeypatch):
+    monkeypatch.setattr(stream, "PART", 700)
+
+
+@pytest.fixture(scope="module")
+def points():
+    return torus(3000, 1.0, 0.4, 9)[0]
+
+
+def _compare(folder, field):
+    seen = np.zeros(len(field), bool)
+    for where, part in load_parts(folder):
+        seen[where] = True
+        np.testing.assert_array_equal(part.phi, field.phi[where])
+        np.testing.assert_array_equal(part.status, field.status[where])
+        for order in field.orders:
+            for row, i in enumerate(where[:50]):
+                np.testing.assert_array_equal(
+                    part[order].vector[part[order].at(row)], field[order].vector[field[order].at(i)]
+                )
+    assert seen.all()
+
+
+def test_same_bits_as_in_memory(points, tmp_path):
+    assert estimate_to_disk(points, tmp_path / "run", **HOW) == 5
+    _compare(tmp_path / "run", estimate_directions(points, **HOW))
+
+
+def test_resumed_run_has_the_same_bits(points, tmp_path):
+    folder = tmp_path / "run"
+
+    def stop(fraction, text):
+        if fraction > 0.5:
+            raise Cancelled("stopped")
+
+    with pytest.raises(Cancelled):
+        estimate_to_disk(points, folder, progress=stop, **HOW)
+    names = sorted(path.name for path in folder.glob("part-*.npz"))
+    assert 0 < len(names) < 5
+    assert not list(folder.glob(".*"))
+    with pytest.raises(FileFormatError, match="unfinished"):
+        list(load_parts(folder))
+    stamps = [(folder / name).stat().st_mtime_ns for name in names]
+    with pytest.raises(InputError, match="pass resume"):
+        estimate_to_disk(points, folder, **HOW)
+    estimate_to_disk(points, folder, resume=True, threads=1, **HOW)
+    assert [(folder / name).stat().st_mtime_ns for name in names] == stamps
+    _compare(folder, estimate_directions(points, **HOW))
+
+
+def test_other_input_is_refused(points, tmp_path):
+    estimate_to_disk(points[:900], tmp_path / "run", **HOW)
+    with pytest.raises(InputError, match="other input"):
+        estimate_to_disk(points[1:901], tmp_path / "run", resume=True, **HOW)
+    with pytest.raises(InputError, match="degree"):
+        estimate_to_disk(points[:900], tmp_path / "run", resume=True, **(HOW | {"degree": 6}))
