@@ -1,6 +1,7 @@
-"""Compare eigenvectors and E-eigenvalues with Macaulay2 on random forms.
+"""Compare eigenvectors and E-eigenvalues with Macaulay2.
 
-For ten random integer forms of each order from 3 to 6, Macaulay2 computes
+For ten random integer forms of each order from 3 to 6, and for one with a multiple direction and
+one with isotropic eigenvectors, Macaulay2 computes
 
 - the ideal of eigenvectors, the 2 x 2 minors of (T v^(k-1) | v): its degree, the degree of its
   radical, and the degrees and multiplicities of its primary parts over Q;
@@ -139,9 +140,7 @@ def main() -> None:
     rng = random.Random(2024)
     failures = 0
     for order in ORDERS:
-        forms = [
-            BinaryForm([rng.randint(-9, 9) for _ in range(order + 1)]) for _ in range(FORMS - 2)
-        ]
+        forms = [BinaryForm([rng.randint(-9, 9) for _ in range(order + 1)]) for _ in range(FORMS)]
         # One form with a double direction and one with isotropic eigenvectors.
         forms.append(BinaryForm([0] * order + [1]))
         x, y = sp.symbols("x y")
