@@ -80,11 +80,11 @@ def cone(
     )
     found = {k: prediction.eigenpairs(k) for k in prediction.orders}
     if as_json:
-        data = {"orders": {str(k): order_report(pairs) for k, pairs in found.items()}}
+        data = {"orders": {str(k): order_report(pairs, rounded=True) for k, pairs in found.items()}}
         typer.echo(json.dumps(data, indent=2))
         return
     for pairs in found.values():
-        print_order(pairs, digits)
+        print_order(pairs, digits, rounded=True)
 
 
 def make_cone(shape: Shape, slope: str | None, rays: str | None) -> Cone:

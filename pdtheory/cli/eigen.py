@@ -193,8 +193,8 @@ def _print_more(form: BinaryForm, complex_pairs: bool, characteristic: bool, dig
             console.print(Text(f"psi(lambda) ~ {factors}"))
 
 
-def print_order(pairs: EigenPairs, digits: int = 12) -> None:
-    """Print one order: its form, its Wavejets row, and the table of pairs."""
+def print_order(pairs: EigenPairs, digits: int = 12, *, rounded: bool = False) -> None:
+    """Print one order: its form, its Wavejets row, and the table of pairs (:func:`eigen_table`)."""
     from rich.console import Console
 
     from pdtheory.exact.report import short
@@ -208,7 +208,7 @@ def print_order(pairs: EigenPairs, digits: int = 12) -> None:
     row = ", ".join(f"phi_{n} = {short(value, 40)}" for n, value in pairs.form.row.phi.items())
     console.print(f"Wavejets row: {row}")
     if pairs.status == "ok":
-        console.print(eigen_table(pairs.order, pairs, digits))
+        console.print(eigen_table(pairs.order, pairs, digits, rounded=rounded))
     elif pairs.status == "isotropic":
         console.print(
             "Isotropic: every unit vector is an E-eigenvector, lambda = "
@@ -218,7 +218,7 @@ def print_order(pairs: EigenPairs, digits: int = 12) -> None:
         console.print("This order vanishes.")
 
 
-def eigen_table(order: int, pairs: EigenPairs, digits: int = 12) -> Table:
+def eigen_table(order: int, pairs: EigenPairs, digits: int = 12, *, rounded: bool = False) -> Table:
     """Return the table of all real E-eigenpairs of one order.
 
     Parameters
@@ -229,6 +229,8 @@ def eigen_table(order: int, pairs: EigenPairs, digits: int = 12) -> Table:
         The pairs.
     digits
         Significant digits of angle and eigenvalue.
+    rounded
+        True if the row was rounded, so that exact forms of its pairs would say nothing.
     """
     from rich.table import Table
     from rich.text import Text
@@ -238,14 +240,15 @@ def eigen_table(order: int, pairs: EigenPairs, digits: int = 12) -> Table:
     table.add_column("lambda", justify="right", no_wrap=True, min_width=digits)
     table.add_column("kind")
     table.add_column("mult.", justify="right")
-    table.add_column("exact", overflow="fold")
+    if not rounded:
+        table.add_column("exact", overflow="fold")
     for pair in pairs:
         table.add_row(
             Text(_number(pair.angle_degrees(digits))),
             Text(_number(pair.eigenvalue_float(digits))),
             pair.kind.label,
             str(pair.multiplicity),
-            Text(pair.exact_text),
+            *(() if rounded else (Text(pair.exact_text),)),
         )
     return table
 

@@ -51,12 +51,13 @@ def _realize(order: int, angles: list[Any], digits: int, as_json: bool) -> None:
     from pdtheory.exact.report import order_report
 
     found = realize_maxima(order, angles)
-    pairs = None if found.row is None else rounded(found.row).eigenpairs()
+    near = None if found.row is None else rounded(found.row)
+    pairs = None if near is None else near.eigenpairs()
     if as_json:
         data: dict[str, Any] = {"realizable": found.is_realizable, "reason": found.reason}
         if found.row is not None and pairs is not None:
             data["exact_wavejets"] = _texts(found.row)
-            data["orders"] = {str(order): order_report(pairs)}
+            data["orders"] = {str(order): order_report(pairs, rounded=near != found.row)}
         typer.echo(json.dumps(data, indent=2))
         return
     verdict = "Realizable" if found.is_realizable else "Not realizable"
@@ -64,7 +65,7 @@ def _realize(order: int, angles: list[Any], digits: int, as_json: bool) -> None:
     if found.row is not None and pairs is not None:
         for n, text in _texts(found.row).items():
             typer.echo(f"phi_{n} = {text}")
-        print_order(pairs, digits)
+        print_order(pairs, digits, rounded=near != found.row)
 
 
 def _family(order: int, angles: list[Any], digits: int, as_json: bool) -> None:

@@ -155,6 +155,12 @@ class EigenPair:
                 direction = f"v = ({', '.join(components)})"
         return f"{direction}, lambda = {self.eigenvalue_text()}"
 
+    def enclosure_text(self, digits: int = 15) -> str:
+        """The pair for people by its enclosures alone: for rows that were rounded."""
+        angle = self.angle_enclosure(digits).text(digits)
+        value = self.eigenvalue_enclosure(digits).text(digits)
+        return f"theta in {angle} degrees, lambda in {value}"
+
     def eigenvalue_text(self, digits: int = 15) -> str:
         """Return lambda for people; beyond a degree of `LARGEST_TEXT` by its enclosure alone."""
         degree = self._numbers.generator.degree * (self.tangent.degree if self.tangent else 1)

@@ -88,8 +88,17 @@ def orders_of(
     return forms
 
 
-def order_report(pairs: EigenPairs) -> dict[str, Any]:
-    """Return one order as plain data: Wavejets row, pairs and status."""
+def order_report(pairs: EigenPairs, *, rounded: bool = False) -> dict[str, Any]:
+    """Return one order as plain data: Wavejets row, pairs and status.
+
+    Parameters
+    ----------
+    pairs
+        The pairs of the order.
+    rounded
+        True if the row was rounded before, so that exact forms of its pairs would say nothing:
+        ``exact`` gives enclosures then.
+    """
     row = pairs.form.row
     return {
         "wavejets": {str(n): [_double(re), _double(im)] for n, (re, im) in row.parts.items()},
@@ -99,7 +108,7 @@ def order_report(pairs: EigenPairs) -> dict[str, Any]:
                 "eigenvalue": _double(p.eigenvalue_float(17)),
                 "kind": p.kind.label,
                 "multiplicity": p.multiplicity,
-                "exact": p.exact_text,
+                "exact": p.enclosure_text() if rounded else p.exact_text,
             }
             for p in pairs
         ],
