@@ -110,6 +110,17 @@ def test_a_scan_of_ones_own_is_found_in_the_folder_given(tmp_path: Path) -> None
         find("david", tmp_path / "elsewhere")
 
 
+def test_a_preferred_scan_takes_the_place_of_the_public_one(tmp_path: Path) -> None:
+    from pdtheory.paper.figures import scans
+
+    box = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"
+    (tmp_path / "igea.obj").write_text(box)
+    scan = scans.Scan("igea", (2,), preferred="david")
+    assert scans._mesh(scan, Job("small", tmp_path)).name == "igea.obj"
+    (tmp_path / "david.obj").write_text(box)
+    assert scans._mesh(scan, Job("small", tmp_path)).name == "david.obj"
+
+
 def test_unknown_figures_are_refused(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="choose one of teaser"):
         list(make(["nothing"], Job("small"), tmp_path))
