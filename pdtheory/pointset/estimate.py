@@ -23,6 +23,8 @@ from pdtheory.pointset.pool import Progress, run_chunks, thread_count
 MAX_DEGREE = 14
 Orient = Literal["auto", "normals", "winding", "propagate", "none"]
 
+#: Said before the first chunk: in the first run on a machine this takes up to a minute.
+PREPARING = "preparing the kernels (compiled once)"
 #: Points in a chunk: some ten milliseconds of work, or a second of it with l1.
 CHUNK = 512
 
@@ -198,7 +200,7 @@ def estimate_directions(
     )
     workers = thread_count(threads)
     if progress is not None:
-        progress(0.0, "preparing the kernels")
+        progress(0.0, PREPARING)
     engine.warm_up()
     collector = Collector(intake.places, int(degree), wanted)
     chunks = run_chunks(

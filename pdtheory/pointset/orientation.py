@@ -14,8 +14,8 @@ from pdtheory.pointset.kernels.signs import hand_on
 
 #: Neighbours that every point is joined with.
 NEIGHBOURS = 10
-#: Points whose planes are found together.
-_BATCH = 100_000
+#: Points whose planes are found together: a fraction of a second of work.
+_BATCH = 10_000
 #: Weight of the edges between points whose normals are parallel, so that none is zero.
 _FLOOR = 1e-6
 
@@ -49,8 +49,7 @@ def consistent_normals(points: FloatArray) -> FloatArray:
         Finite positions.
     """
     count = len(points)
-    _, nearest = cKDTree(points).query(points, k=min(NEIGHBOURS + 1, count))
-    normals = _plane_normals(points, nearest)
+    nearest, normals = _planes(points, min(NEIGHBOURS + 1, count))
     rows = np.repeat(np.arange(count), nearest.shape[1])
     columns = nearest.ravel()
     cost = 1.0 - np.abs(np.einsum("ij,ij->i", normals[rows], normals[columns])) + _FLOOR
@@ -73,15 +72,23 @@ def consistent_normals(points: FloatArray) -> FloatArray:
     return normals * sign[:count, None]
 
 
-def _plane_normals(points: FloatArray, nearest: Any) -> FloatArray:
-    """Return the normals of the principal planes of the listed neighbours."""
+def _planes(points: FloatArray, size: int) -> tuple[IntArray, FloatArray]:
+    """Return the nearest points of each, (P, size), and the normals of their principal planes.
+
+    In batches, between which an interrupt is seen.
+    """
+    tree = cKDTree(points)
+    nearest = np.empty((len(points), size), np.int64)
     normals = np.empty_like(points)
     for start in range(0, len(points), _BATCH):
-        local = points[nearest[start : start + _BATCH]]
+        batch = slice(start, start + _BATCH)
+        _, found = tree.query(points[batch], k=size)
+        nearest[batch] = np.reshape(found, (-1, size))
+        local = points[nearest[batch]]
         local = local - local.mean(axis=1, keepdims=True)
         covariance = np.einsum("pki,pkj->pij", local, local)
-        normals[start : start + _BATCH] = np.linalg.eigh(covariance)[1][:, :, 0]
-    return normals
+        normals[batch] = np.linalg.eigh(covariance)[1][:, :, 0]
+    return nearest, normals
 
 
 def _starts(points: FloatArray, normals: FloatArray, graph: Any) -> tuple[IntArray, FloatArray]:

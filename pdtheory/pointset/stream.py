@@ -25,7 +25,7 @@ from pdtheory.errors import FileAccessError, FileFormatError, InputError
 from pdtheory.pointset.assemble import Collector
 from pdtheory.pointset.cloud import IntArray, PointCloud
 from pdtheory.pointset.engine import Engine
-from pdtheory.pointset.estimate import CHUNK, Orient, check_orders, make_engine
+from pdtheory.pointset.estimate import CHUNK, PREPARING, Orient, check_orders, make_engine
 from pdtheory.pointset.field import DirectionField
 from pdtheory.pointset.intake import take_in
 from pdtheory.pointset.pool import Progress, run_chunks, thread_count
@@ -111,7 +111,7 @@ frame, weight_distance, uncertainty, non_finite, threads, progress
     place = _open_folder(Path(folder), plan, resume)
     missing = [i for i in range(parts) if not _part(place, i).exists()]
     if progress is not None:
-        progress(1.0 - len(missing) / max(parts, 1), "preparing the kernels")
+        progress(1.0 - len(missing) / max(parts, 1), PREPARING)
     engine.warm_up()
     workers = thread_count(threads)
     for done, number in enumerate(missing):
