@@ -18,7 +18,7 @@ ORDERS = range(2, 8)
 def compute(job: Job) -> Outcome:
     """Fit the apex and compare with the exact prediction, order by order."""
     surface = synthetic_surfaces.get("planes")
-    count = job.pick(20_000, 200_000, 500_000)
+    count = job.pick(20_000, 200_000, 300_000)
     field = fit_apex(surface, list(ORDERS), count)
     checks, angles, counts = compare(surface, field, job.pick(2e-2, 5e-3, 2e-3))
     ridges = np.radians([float(azimuth) for azimuth in surface.values["azimuths"]])

@@ -16,7 +16,7 @@ from pdtheory.paper.figures.stage import Panel, Strokes, sheet
 def compute(job: Job) -> Outcome:
     """Fit order 3 at the junction of three gable roofs."""
     surface = synthetic_surfaces.get("t-junction", slope="3/5")
-    count = job.pick(20_000, 200_000, 500_000)
+    count = job.pick(20_000, 200_000, 300_000)
     field = fit_apex(surface, [2, 3], count)
     checks, _, counts = compare(surface, field, job.pick(2e-2, 5e-3, 2e-3))
     vector = field[3].maxima.vector
