@@ -28,7 +28,7 @@ _LARGEST = 4.0
 def compute(job: Job) -> Outcome:
     """Estimate order 6 at the point that faces the front and shows it at every radius."""
     mesh = load(_MODEL, job)
-    count = job.pick(100_000, 300_000, 5_000_000)
+    count = job.pick(100_000, 300_000, 2_000_000)
     cloud = sample(mesh, count, job.seed)
     assert cloud.normals is not None
     front = np.flatnonzero(cloud.normals[:20_000, 2] > 0.6)[: job.pick(20, 200, 200)]
