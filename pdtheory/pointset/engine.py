@@ -108,6 +108,8 @@ class Engine:
             radii = np.full(size, self.choice.radius)
         else:
             radii, lists = nearest(self._tree, queries, self.choice.neighbours or 0)
+            # A strided view would be another type, for which everything is compiled once more.
+            radii = np.ascontiguousarray(radii)
         output = make_output(size, self.orders, self._columns)
         run_chunk(
             self._grid,

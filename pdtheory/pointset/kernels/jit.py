@@ -30,7 +30,7 @@ def _source_stamp() -> tuple[float, int]:
 def _compile(function: F, **extra: Any) -> F:
     options: dict[str, Any] = {"nogil": True, "fastmath": _FAST, "error_model": "numpy", **extra}
     try:
-        compiled = numba.njit(cache=True, **options)(function)
+        compiled = numba.njit(**{"cache": True, **options})(function)
     except RuntimeError:
         return numba.njit(**options)(function)
     file: Any = getattr(compiled._cache, "_cache_file", None)
@@ -51,4 +51,4 @@ def kernel(function: F) -> F:
 
 def inner(function: F) -> F:
     """Compile a function that only kernels call, without the wrappers that Python would need."""
-    return _compile(function, no_cpython_wrapper=True, no_cfunc_wrapper=True)
+    return _compile(function, no_cpython_wrapper=True, no_cfunc_wrapper=True, cache=False)
