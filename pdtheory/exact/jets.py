@@ -162,6 +162,8 @@ def implicit_jet(
         If the point is not on the surface, is singular (zero gradient), or `tangent` is normal.
     ExpressionError
         If F is not smooth at the point.
+    ComputationError
+        If the constants at the point are too long for exact division.
     """
     degree = check_order(degree, 1)
     point = _triple(at, "point")
@@ -182,6 +184,7 @@ def implicit_jet(
         )
     U, V, N = _orthogonal_frame(gradient, tangent)
     field = Field([*expansion.constants, *point, *U, *V, *N])
+    field.check_division()
     base = [field.affine(p, u, v, degree) for p, u, v in zip(point, U, V, strict=True)]
     normal = [field.element(c) for c in N]
     slope = field.element(1) / sum(
@@ -228,6 +231,8 @@ def parametric_jet(
         If X_u and X_v are parallel at the point.
     ExpressionError
         If a coordinate is not smooth at the point.
+    ComputationError
+        If the constants at the point are too long for exact division.
     """
     degree = check_order(degree, 1)
     coordinates = _triple(X, "patch")
@@ -246,6 +251,7 @@ def parametric_jet(
         )
     U, V, N = _orthogonal_frame(normal, tangent)
     field = Field([*(c for e in expansions for c in e.constants), *U, *V, *N])
+    field.check_division()
     arguments = field.variables(expansions, u, v, degree)
     series = [e.evaluate(field, arguments) for e in expansions]
     point = tuple(sp.expand(c.subs(place, simultaneous=True)) for c in coordinates)

@@ -16,12 +16,16 @@ from typing import Any
 import sympy as sp
 from sympy.polys.rings import ring
 
-from pdtheory.errors import ExpressionError, InputError
+from pdtheory.errors import ComputationError, ExpressionError, InputError
 from pdtheory.exact.coefficients import check_order, exact, is_zero
 from pdtheory.exact.faces import BinaryForm
 from pdtheory.exact.tensor import SymmetricTensor
 
 _Z = sp.Symbol("z")
+
+#: Largest power of one generator in a field of several: greatest common divisors of such
+#: fractions are found from values at large integers, which these powers make unbearably long.
+MAX_POWER = 1000
 
 
 @dataclass(frozen=True)
@@ -111,6 +115,29 @@ class Field:
         self.domain, elements = sp.construct_domain(constants, extension=True, field=True)
         self._known = dict(zip(constants, elements, strict=True))
         self.ring, self.x, self.y = ring("x,y", self.domain)
+
+    def check_division(self) -> None:
+        """Refuse constants whose fractions cannot be reduced in reasonable time.
+
+        Raises
+        ------
+        ComputationError
+            If the field has several generators and a constant holds one to a power above
+            `MAX_POWER`, as exp(380689/1562500) does beside exp(1/1562500).
+        """
+        if not self.domain.is_FractionField or len(self.domain.symbols) < 2:
+            return
+        power = max(
+            max(map(max, part.keys()), default=0)
+            for e in self._known.values()
+            for part in (e.numer, e.denom)
+        )
+        if power > MAX_POWER:
+            raise ComputationError(
+                f"The constants of the surface at this point need the power {power} of one of "
+                f"{len(self.domain.symbols)} transcendental numbers or parameters, above "
+                f"{MAX_POWER}, too long to divide; choose a point with shorter fractions."
+            )
 
     def element(self, constant: Any) -> Any:
         """Return a constant as an element of the field."""
