@@ -121,6 +121,9 @@ def add_points(
     centre = points[where] if origin is None else points[where] - origin
     axis = np.tile([0.0, 0.0, 1.0], (len(where), 1)) if normals is None else normals[where]
     radius = _disc_radius(centre)
+    # Discs in one plane would shade each other black; each sinks by an amount of its own.
+    depth = 0.1 * radius * np.modf(0.6180339887498949 * np.arange(len(centre)))[0]
+    centre = centre - depth[:, None] * axis
     helper = np.where(np.abs(axis[:, :1]) < 0.7, [[1.0, 0.0, 0.0]], [[0.0, 1.0, 0.0]])
     first = np.cross(helper, axis)
     first /= np.linalg.norm(first, axis=1, keepdims=True)
