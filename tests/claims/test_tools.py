@@ -15,9 +15,9 @@ from pdtheory.exact import (
 )
 from pdtheory.exact.strata import order3_discriminant, order4_discriminant
 from pdtheory.paper.claims.corrected_counts import d3, d4
-from pdtheory.paper.claims.corrected_pairs import psi_value
 from pdtheory.paper.claims.fits import basis, fit, gaussian_moment, gaussian_values, uniform_moment
 from pdtheory.paper.claims.kit import identity, vanish, x, y
+from pdtheory.paper.claims.resultants import psi_value
 from pdtheory.paper.claims.sturm import (
     circle_point,
     count_maxima,

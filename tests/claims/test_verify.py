@@ -42,7 +42,8 @@ def test_json(run):
 
 def test_orders_reach_the_claims(run):
     found = json.loads(run("e-characteristic-polynomial", "--orders", "2:5", "--json").output)
-    assert found[0]["scope"] == "orders 2 to 5"
+    data = [step["data"] for step in found[0]["certificate"]["steps"]]
+    assert "[2, 3, 4, 5]" in [entry.get("orders") for entry in data]
 
 
 def test_a_different_verdict_gives_exit_code_1(run, monkeypatch):

@@ -16,6 +16,7 @@ from pdtheory.paper.claims import (
     cones,
     corrected_counts,
     corrected_pairs,
+    corrected_psi,
     corrected_rosy,
     directions,
     estimation,
@@ -61,6 +62,7 @@ CLAIMS: tuple[Claim, ...] = tuple(
         corrected_rosy,
         corrected_counts,
         corrected_pairs,
+        corrected_psi,
         cones,
         outside,
     )
