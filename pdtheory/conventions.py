@@ -80,6 +80,14 @@ ORDER_COLOURS: Final[dict[int, Colour]] = {
     10: Colour(0.58, 0.44, 0.86),
 }
 
+#: Colour of the orders beyond the series.
+_OTHER_ORDERS: Final = Colour(0.20, 0.20, 0.20)
+
+
+def order_colour(order: int) -> Colour:
+    """Return the colour of an order; all beyond the series share a dark grey."""
+    return ORDER_COLOURS.get(order, _OTHER_ORDERS)
+
 
 def frequencies(order: int) -> range:
     """Return the stored frequencies n of one order: 0 <= n <= k with n = k mod 2, ascending."""

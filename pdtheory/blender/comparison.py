@@ -10,7 +10,8 @@ from scipy.spatial import cKDTree
 
 from pdtheory.conventions import wavejets_table
 from pdtheory.pointset.cloud import FloatArray
-from pdtheory.pointset.field import DirectionField, OrderDirections
+from pdtheory.pointset.directions import OrderDirections
+from pdtheory.pointset.field import DirectionField
 
 if TYPE_CHECKING:
     from pdtheory.exact import SurfaceJet

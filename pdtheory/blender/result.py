@@ -20,7 +20,8 @@ from pdtheory.blender.source import Source, read_object
 from pdtheory.conventions import UNANSWERED, Status
 from pdtheory.errors import InputError
 from pdtheory.pointset.cloud import FloatArray
-from pdtheory.pointset.field import DirectionField, OrderDirections
+from pdtheory.pointset.directions import OrderDirections
+from pdtheory.pointset.field import DirectionField
 
 #: Property of a stroke object that refers to its points.
 POINTS_KEY: Final = "pdtheory_points"

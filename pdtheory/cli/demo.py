@@ -265,8 +265,9 @@ def _torus_jets() -> list[SurfaceJet]:
 
 
 def _estimate(console: Console, cloud: PointCloud, quiet: bool) -> DirectionField:
-    from pdtheory.cli.estimate import status_sentences, summary_table
+    from pdtheory.cli.estimate import summary_table
     from pdtheory.pointset import estimate_directions
+    from pdtheory.pointset.summary import status_sentences
 
     console.print(f"\n[bold]3. On {cloud.name}, {len(cloud):,} points[/bold]")
     with progress_bar("Estimating", quiet=quiet) as report:

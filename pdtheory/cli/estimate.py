@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from pdtheory.cli.options import check_target, parse_orders, progress_bar
-from pdtheory.conventions import DEFAULT_DEGREE, UNANSWERED, Status
+from pdtheory.conventions import DEFAULT_DEGREE
 from pdtheory.errors import InputError
 
 if TYPE_CHECKING:
@@ -112,6 +112,8 @@ def estimate(
     if not quiet:
         from rich.console import Console
 
+        from pdtheory.pointset.summary import status_sentences
+
         console = Console()
         console.print(summary_table(field))
         for sentence in status_sentences(field):
@@ -122,8 +124,10 @@ def estimate(
 
 def _refuse_empty(field: DirectionField, source: Path) -> None:
     """Refuse a result in which no point has an answer: nobody wants a file of NaN."""
-    if not bool(((field.status & int(UNANSWERED)) != 0).all()):
+    if field.answered.any():
         return
+    from pdtheory.pointset.summary import status_sentences
+
     _, *reasons = status_sentences(field)
     raise InputError(
         f"none of the {len(field):,} points of {source} could be answered: {' '.join(reasons)}"
@@ -132,46 +136,18 @@ def _refuse_empty(field: DirectionField, source: Path) -> None:
 
 def summary_table(field: DirectionField) -> Table:
     """Return a table with the number of directions and the median strength of every order."""
-    import numpy as np
+    from math import isfinite
+
     from rich.table import Table
+
+    from pdtheory.pointset.summary import order_summaries
 
     table = Table(title=f"Principal directions at {len(field):,} points")
     for heading in ("order", "maxima", "minima", "median strength", "median std (degrees)"):
         table.add_column(heading, justify="right")
-    for order in field.orders:
-        rows = field[order]
-
-        def median(values: np.ndarray[tuple[int], np.dtype[np.float64]]) -> str:
-            finite = values[np.isfinite(values)]
-            return f"{np.median(finite):.3g}" if len(finite) else "-"
-
-        table.add_row(
-            str(order),
-            f"{len(rows.maxima):,}",
-            f"{len(rows.minima):,}",
-            median(rows.strength),
-            median(np.degrees(rows.angle_std)),
+    for row in order_summaries(field):
+        medians = (
+            f"{value:.3g}" if isfinite(value) else "-" for value in (row.strength, row.angle_std)
         )
+        table.add_row(str(row.order), f"{row.maxima:,}", f"{row.minima:,}", *medians)
     return table
-
-
-_REASONS = {
-    Status.NON_FINITE: "have a coordinate that is not finite",
-    Status.TOO_FEW_NEIGHBOURS: "have too few neighbours; enlarge the radius",
-    Status.DEGENERATE_FRAME: "have neighbours that span no plane",
-    Status.DEGREE_LOWERED: "could not bear the degree, which was lowered there",
-    Status.ILL_CONDITIONED: "are ill-conditioned; trust their standard deviations",
-    Status.ONE_SIDED: "lie at a boundary",
-    Status.NOT_CONVERGED: "did not converge in the l1 norm",
-}
-
-
-def status_sentences(field: DirectionField) -> list[str]:
-    """Say in words how many points could not be answered or are weaker than asked for, and why."""
-    unanswered = int(((field.status & int(UNANSWERED)) != 0).sum())
-    sentences = [f"{len(field) - unanswered:,} of {len(field):,} points answered."]
-    for flag, reason in _REASONS.items():
-        count = int(((field.status & int(flag)) != 0).sum())
-        if count:
-            sentences.append(f"{count:,} points {reason}.")
-    return sentences

@@ -11,8 +11,8 @@ from pathlib import Path
 
 import numpy as np
 
-from pdtheory.io.table import Columns
 from pdtheory.pointset.cloud import IntArray
+from pdtheory.pointset.table import Columns
 
 _TYPE_NAMES = {
     "i1": "char",

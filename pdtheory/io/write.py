@@ -7,15 +7,13 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-import numpy as np
-
 from pdtheory.atomic import atomic_path
 from pdtheory.errors import FileAccessError, FileFormatError, InputError
 from pdtheory.io.ply import write_ply
-from pdtheory.io.table import Columns, direction_columns, point_columns
 from pdtheory.io.vtp import write_vtp
 from pdtheory.pointset.cloud import PointCloud
 from pdtheory.pointset.field import DirectionField
+from pdtheory.pointset.table import Columns, direction_columns, glyph_columns, point_columns
 
 FIELD_SUFFIXES = (".npz", ".ply", ".vtp", ".csv")
 CLOUD_SUFFIXES = (".ply", ".xyz", ".txt", ".csv", ".obj", ".stl")
@@ -155,12 +153,7 @@ def _field_to_ply(field: DirectionField, path: Path) -> None:
 
 
 def _field_to_vtp(field: DirectionField, path: Path) -> None:
-    columns = direction_columns(field)
-    index = columns["point"]
-    vector = np.stack([columns.pop(f"d{axis}") for axis in "xyz"], axis=1)
-    data = columns | {"direction": vector, "normal": np.nan_to_num(field.frames[index, 2])}
-    data |= {"radius": field.radius[index], "status": field.status[index]}
-    write_vtp(path, field.points[index], data)
+    write_vtp(path, *glyph_columns(field))
 
 
 def _field_to_csv(field: DirectionField, path: Path) -> None:

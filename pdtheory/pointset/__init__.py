@@ -10,15 +10,15 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from pdtheory.pointset.cloud import PointCloud as PointCloud
+    from pdtheory.pointset.directions import OrderDirections as OrderDirections
     from pdtheory.pointset.estimate import estimate_directions as estimate_directions
     from pdtheory.pointset.field import DirectionField as DirectionField
-    from pdtheory.pointset.field import OrderDirections as OrderDirections
     from pdtheory.pointset.stream import estimate_to_disk as estimate_to_disk
     from pdtheory.pointset.stream import load_parts as load_parts
 
 _HOME = {
     "DirectionField": "field",
-    "OrderDirections": "field",
+    "OrderDirections": "directions",
     "PointCloud": "cloud",
     "estimate_directions": "estimate",
     "estimate_to_disk": "stream",

@@ -8,7 +8,8 @@ import numpy as np
 
 from pdtheory.conventions import wavejets_table
 from pdtheory.pointset.cloud import FloatArray, IntArray
-from pdtheory.pointset.field import DirectionField, OrderDirections
+from pdtheory.pointset.directions import OrderDirections
+from pdtheory.pointset.field import DirectionField
 from pdtheory.pointset.kernels.chunk import Output
 
 _ROWS = ("angle", "vector", "eigenvalue", "strength", "kind", "angle_std", "eigenvalue_std")

@@ -3,108 +3,33 @@
 from __future__ import annotations
 
 import os
-import zipfile
-from collections.abc import Mapping
-from dataclasses import dataclass, field
-from pathlib import Path
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, fields, replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
-from pdtheory.atomic import atomic_path
-from pdtheory.conventions import Kind, Status
-from pdtheory.errors import FileAccessError, FileFormatError, InputError
+from pdtheory.conventions import UNANSWERED
+from pdtheory.errors import InputError
 from pdtheory.pointset.cloud import FloatArray, IntArray
+from pdtheory.pointset.directions import OrderDirections
+from pdtheory.pointset.npz import load_npz, save_npz
 
-#: Version of the NPZ layout, documented in docs/formats.md.
-SCHEMA = 1
-
-
-@dataclass(frozen=True)
-class OrderDirections:
-    """All directions of one order, flat, with CSR offsets by point.
-
-    The directions of point i are the rows ``offsets[i]:offsets[i + 1]``, by ascending angle.
-
-    Attributes
-    ----------
-    order : int
-        The order k.
-    offsets : (P + 1,) int64
-        Start of each point's rows.
-    angle : (M,) float64
-        Angle from t1 towards t2 in radians, in [0, 2 pi).
-    vector : (M, 3) float64
-        The unit tangent vector cos(angle) t1 + sin(angle) t2.
-    eigenvalue : (M,) float64
-        E-eigenvalue lambda = k! g_k(angle), in length^(1-k).
-    strength : (M,) float64
-        |g_k| R^(k-1), dimensionless.
-    kind : (M,) int8
-        +1 maximum, -1 minimum, 0 inflection of the signed g_k.
-    angle_std, eigenvalue_std : (M,) float64
-        Standard deviations that follow from the residuals of the fit (radians; unit of lambda).
-    isotropic : (P,) bool
-        True where g_k is constant to within rounding, so that every direction is an E-eigenvector
-        and none is listed.
-    """
-
-    order: int
-    offsets: IntArray
-    angle: FloatArray
-    vector: FloatArray
-    eigenvalue: FloatArray
-    strength: FloatArray
-    kind: npt.NDArray[np.int8]
-    angle_std: FloatArray
-    eigenvalue_std: FloatArray
-    isotropic: npt.NDArray[np.bool_]
-
-    def __len__(self) -> int:
-        return len(self.angle)
-
-    @property
-    def point_index(self) -> IntArray:
-        """(M,) index of the point that each direction belongs to."""
-        return np.repeat(np.arange(len(self.offsets) - 1), np.diff(self.offsets))
-
-    def of_kind(self, kind: Kind) -> OrderDirections:
-        """Return the directions of one kind only, for all points."""
-        return self._take(self.kind == int(kind))
-
-    @property
-    def maxima(self) -> OrderDirections:
-        """The maximum principal directions."""
-        return self.of_kind(Kind.MAXIMUM)
-
-    @property
-    def minima(self) -> OrderDirections:
-        """The minimum principal directions."""
-        return self.of_kind(Kind.MINIMUM)
-
-    def at(self, point: int) -> slice:
-        """Return the slice of rows that belong to one point."""
-        return slice(int(self.offsets[point]), int(self.offsets[point + 1]))
-
-    def _take(self, keep: npt.NDArray[np.bool_]) -> OrderDirections:
-        running = np.concatenate(([0], np.cumsum(keep)))
-        return OrderDirections(
-            order=self.order,
-            offsets=running[self.offsets].astype(np.int64),
-            angle=self.angle[keep],
-            vector=self.vector[keep],
-            eigenvalue=self.eigenvalue[keep],
-            strength=self.strength[keep],
-            kind=self.kind[keep],
-            angle_std=self.angle_std[keep],
-            eigenvalue_std=self.eigenvalue_std[keep],
-            isotropic=self.isotropic,
-        )
+if TYPE_CHECKING:
+    from pdtheory.pointset.point import PointDirections
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class DirectionField:
     """Principal directions of several orders at P points, with what is needed to judge them.
+
+    Square brackets choose an order, :meth:`take` chooses points, :meth:`at` looks at one point::
+
+        field[3].maxima.vector  # (M, 3): all of them, flat
+        field[3].maxima.vectors[7]  # (n, 3): those of point 7
+        field.take(slice(10, 20))  # the field of ten points
+        print(field.at(7))
 
     Attributes
     ----------
@@ -154,7 +79,17 @@ class DirectionField:
         """The orders present, ascending."""
         return tuple(sorted(self.directions))
 
+    @property
+    def answered(self) -> npt.NDArray[np.bool_]:
+        """(P,) whether the point has an answer."""
+        return (self.status & int(UNANSWERED)) == 0
+
     def __getitem__(self, order: int) -> OrderDirections:
+        if isinstance(order, (slice, list, tuple, np.ndarray)):
+            raise InputError(
+                "square brackets choose one order, as in field[3]; choose points with "
+                "field.take(...)."
+            )
         try:
             return self.directions[order]
         except KeyError:
@@ -162,6 +97,91 @@ class DirectionField:
                 f"order {order} was not computed; this field holds the orders "
                 f"{', '.join(map(str, self.orders))}."
             ) from None
+
+    def take(self, points: slice | npt.ArrayLike) -> DirectionField:
+        """Return the field of some points, all orders included.
+
+        Parameters
+        ----------
+        points : slice, (P,) bool or (Q,) int array_like
+            A slice, a mask, or indices in any order; negative ones count from the end.
+
+        Returns
+        -------
+        DirectionField
+            The Q points, in the order asked for.
+
+        Raises
+        ------
+        InputError
+            If a mask has another length, an index is outside the field, or it is something else.
+
+        Examples
+        --------
+        >>> field.take(field.answered)  # doctest: +SKIP
+        """
+        index = self._indices(points)
+        columns = {
+            entry.name: getattr(self, entry.name)[index]
+            for entry in fields(self)
+            if entry.name not in _NOT_BY_POINT
+        }
+        directions = {order: rows.take(index) for order, rows in self.directions.items()}
+        return replace(self, directions=directions, **columns)
+
+    def only(self, orders: Iterable[int]) -> DirectionField:
+        """Return the field with the directions of some orders only; `phi` stays whole.
+
+        Raises
+        ------
+        InputError
+            If one of them was not computed.
+        """
+        return replace(self, directions={order: self[order] for order in orders})
+
+    def at(self, point: int) -> PointDirections:
+        """Return everything about one point; print it for a table.
+
+        Parameters
+        ----------
+        point
+            Its index; a negative one counts from the end.
+
+        Raises
+        ------
+        InputError
+            If there is no such point.
+        """
+        from pdtheory.pointset.point import point_directions
+
+        if not isinstance(point, (int, np.integer)) or isinstance(point, bool):
+            raise InputError(f"point {point!r} is not an index; give an integer.")
+        return point_directions(self, int(self._indices([point])[0]))
+
+    def _indices(self, points: slice | npt.ArrayLike) -> IntArray:
+        count = len(self)
+        if isinstance(points, slice):
+            return np.arange(count)[points]
+        chosen = np.asarray(points)
+        if chosen.ndim == 1 and chosen.dtype == np.bool_:
+            if len(chosen) != count:
+                raise InputError(
+                    f"the mask has {len(chosen)} entries for {count} points; give one for each."
+                )
+            return np.flatnonzero(chosen)
+        if chosen.ndim == 1 and chosen.size == 0:
+            return np.zeros(0, np.int64)
+        if chosen.ndim != 1 or chosen.dtype.kind not in "iu":
+            raise InputError(
+                f"points of type {chosen.dtype} and shape {chosen.shape} choose nothing; "
+                "give a slice, a mask or a list of indices."
+            )
+        outside = chosen[(chosen < -count) | (chosen >= count)]
+        if len(outside):
+            raise InputError(
+                f"there is no point {outside[0]}; the field has {count} points, counted from 0."
+            )
+        return np.where(chosen < 0, chosen + count, chosen).astype(np.int64)
 
     def coefficient(self, order: int, frequency: int) -> npt.NDArray[np.complex128]:
         """Return phi_{k,n} at every point, shape (P,); negative n gives the conjugate.
@@ -180,6 +200,77 @@ class DirectionField:
         values = self.phi[:, column[0]]
         return np.conj(values) if frequency < 0 else values
 
+    def __repr__(self) -> str:
+        orders = ", ".join(map(str, self.orders)) or "none"
+        return (
+            f"<DirectionField: {len(self):,} points, {int(self.answered.sum()):,} answered, "
+            f"orders {orders}>"
+        )
+
+    def _repr_html_(self) -> str:
+        from pdtheory.pointset.summary import field_html
+
+        return field_html(self)
+
+    def to_dataframe(self) -> Any:
+        """Return a pandas DataFrame with a row for each direction of every order.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The columns of the CSV format (docs/formats.md).
+
+        Raises
+        ------
+        MissingDependencyError
+            If pandas is not installed.
+        """
+        from pdtheory.pointset.convert import to_dataframe
+
+        return to_dataframe(self)
+
+    def to_pyvista(self) -> Any:
+        """Return a PyVista mesh with one point for each direction, as in a VTP file.
+
+        ``field.to_pyvista().glyph(orient="direction", scale="strength")`` draws arrows.
+
+        Returns
+        -------
+        pyvista.PolyData
+            Points with the arrays of the VTP format (docs/formats.md).
+
+        Raises
+        ------
+        MissingDependencyError
+            If PyVista is not installed.
+        """
+        from pdtheory.pointset.convert import to_pyvista
+
+        return to_pyvista(self)
+
+    def to_trimesh(self, *, length: float | None = None) -> Any:
+        """Return the directions as coloured strokes of trimesh.
+
+        Parameters
+        ----------
+        length
+            Length of a stroke in world units; a third of the median radius if left out.
+
+        Returns
+        -------
+        trimesh.path.Path3D
+            One entity for each direction, from the point outwards, in the colour of its order;
+            rows by order, then by point, then by angle.
+
+        Raises
+        ------
+        InputError
+            If the length is not positive and finite.
+        """
+        from pdtheory.pointset.convert import to_trimesh
+
+        return to_trimesh(self, length=length)
+
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the field as NPZ (schema 1, docs/formats.md), whole or not at all.
 
@@ -188,18 +279,7 @@ class DirectionField:
         FileAccessError
             If the file cannot be written.
         """
-        arrays: dict[str, npt.NDArray[np.generic]] = {
-            "schema": np.array(SCHEMA),
-            "status_names": np.array([f"{flag.value}:{flag.name}" for flag in Status]),
-            "orders": np.array(self.orders, dtype=np.int64),
-        }
-        for name in _POINT_ARRAYS:
-            arrays[name] = getattr(self, name)
-        for order, rows in self.directions.items():
-            for name in _ORDER_ARRAYS:
-                arrays[f"order{order}_{name}"] = getattr(rows, name)
-        with atomic_path(path) as temporary, temporary.open("wb") as stream:
-            np.savez(stream, **arrays)
+        save_npz(self, path)
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> DirectionField:
@@ -212,60 +292,9 @@ class DirectionField:
         FileFormatError
             If it is not a direction field, or of a newer schema.
         """
-        source = Path(path)
-        try:
-            with np.load(source, allow_pickle=False) as data:
-                if not isinstance(data, np.lib.npyio.NpzFile) or "schema" not in data:
-                    raise FileFormatError(f"{source} is not a direction field of pdtheory.")
-                if int(data["schema"]) > SCHEMA:
-                    raise FileFormatError(
-                        f"{source} has schema {int(data['schema'])}; this version reads up to "
-                        f"{SCHEMA}, please upgrade pdtheory."
-                    )
-                directions = {
-                    int(order): OrderDirections(
-                        order=int(order),
-                        **{name: data[f"order{order}_{name}"] for name in _ORDER_ARRAYS},
-                    )
-                    for order in data["orders"]
-                }
-                return cls(
-                    **{name: data[name] for name in _POINT_ARRAYS},
-                    directions=directions,
-                )
-        except FileNotFoundError as error:
-            raise FileAccessError(f"no such file: {source}.") from error
-        except OSError as error:
-            raise FileAccessError(f"cannot read {source}: {error.strerror or error}.") from error
-        except (zipfile.BadZipFile, EOFError, KeyError, ValueError) as error:
-            if isinstance(error, FileFormatError):
-                raise
-            raise FileFormatError(
-                f"{source} is not a direction field of pdtheory, or it is damaged ({error})."
-            ) from error
+        names = tuple(entry.name for entry in fields(cls) if entry.name != "directions")
+        return cls(**load_npz(path, names))
 
 
-_POINT_ARRAYS = (
-    "points",
-    "frames",
-    "radius",
-    "degree",
-    "neighbours",
-    "residual_rms",
-    "condition",
-    "status",
-    "phi",
-    "phi_order",
-    "phi_frequency",
-)
-_ORDER_ARRAYS = (
-    "offsets",
-    "angle",
-    "vector",
-    "eigenvalue",
-    "strength",
-    "kind",
-    "angle_std",
-    "eigenvalue_std",
-    "isotropic",
-)
+#: What does not have one row for each point.
+_NOT_BY_POINT = ("directions", "phi_order", "phi_frequency")

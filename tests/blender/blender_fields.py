@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from pdtheory.pointset.cloud import PointCloud
-from pdtheory.pointset.field import DirectionField, OrderDirections
+from pdtheory.pointset.directions import OrderDirections
+from pdtheory.pointset.field import DirectionField
 
 
 def torus(major: float = 1.0, minor: float = 0.4, count: tuple[int, int] = (48, 20)):

@@ -16,7 +16,8 @@ from pdtheory.conventions import Status
 from pdtheory.errors import FileAccessError, FileFormatError, InputError
 from pdtheory.io import read_cloud, read_field, write_cloud, write_field
 from pdtheory.pointset.cloud import PointCloud
-from pdtheory.pointset.field import DirectionField, OrderDirections
+from pdtheory.pointset.directions import OrderDirections
+from pdtheory.pointset.field import DirectionField
 
 
 def rows(order: int, counts: list[int], rng: np.random.Generator) -> OrderDirections:

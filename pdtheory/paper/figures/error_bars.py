@@ -13,7 +13,8 @@ from pdtheory.paper.figures.scans import sample
 from pdtheory.paper.figures.stage import Panel, Strokes, sheet
 from pdtheory.pointset import estimate_directions
 from pdtheory.pointset.cloud import FloatArray, PointCloud
-from pdtheory.pointset.field import DirectionField, OrderDirections
+from pdtheory.pointset.directions import OrderDirections
+from pdtheory.pointset.field import DirectionField
 from synthetic_surfaces.spread import OVERSAMPLING, thin
 
 _MODEL = "igea"

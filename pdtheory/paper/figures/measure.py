@@ -12,7 +12,8 @@ import numpy.typing as npt
 from pdtheory.conventions import frequencies
 from pdtheory.errors import ComputationError
 from pdtheory.pointset.cloud import FloatArray, PointCloud
-from pdtheory.pointset.field import DirectionField, OrderDirections
+from pdtheory.pointset.directions import OrderDirections
+from pdtheory.pointset.field import DirectionField
 from synthetic_surfaces import Surface
 
 TURN: Final = 2.0 * np.pi

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from pdtheory.pointset.cloud import FloatArray
 from pdtheory.pointset.field import DirectionField
 
 Columns = dict[str, npt.NDArray[Any]]
@@ -79,6 +80,30 @@ def point_columns(field: DirectionField) -> Columns:
         columns[f"order{order}_strength"] = strength
         columns |= {f"order{order}_{axis}": vector[:, i] for i, axis in enumerate("xyz")}
     return columns
+
+
+def glyph_columns(field: DirectionField) -> tuple[FloatArray, Columns]:
+    """Return what draws a glyph at every direction: positions, and arrays of the same length.
+
+    Parameters
+    ----------
+    field
+        The field.
+
+    Returns
+    -------
+    points : (M, 3) float64
+        The point of each direction, so that one with several directions occurs several times.
+    columns : dict of str to (M,) or (M, 3) array
+        The columns of :func:`direction_columns`, with the vector in one as ``direction``, and
+        ``normal``, ``radius`` and ``status`` of the point.
+    """
+    columns = direction_columns(field)
+    index = columns["point"]
+    vector = np.stack([columns.pop(f"d{axis}") for axis in "xyz"], axis=1)
+    columns |= {"direction": vector, "normal": np.nan_to_num(field.frames[index, 2])}
+    columns |= {"radius": field.radius[index], "status": field.status[index]}
+    return field.points[index], columns
 
 
 def _stack(parts: list[npt.NDArray[Any]], empty_shape: int | tuple[int, ...]) -> npt.NDArray[Any]:

@@ -1,0 +1,107 @@
+"""Direction fields as NPZ files (schema 1, docs/formats.md)."""
+
+from __future__ import annotations
+
+import os
+import zipfile
+from dataclasses import fields
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from pdtheory.atomic import atomic_path
+from pdtheory.conventions import Status
+from pdtheory.errors import FileAccessError, FileFormatError
+from pdtheory.pointset.directions import OrderDirections
+
+if TYPE_CHECKING:
+    from pdtheory.pointset.field import DirectionField
+
+#: Version of the layout.
+SCHEMA = 1
+
+_ORDER_ARRAYS = tuple(entry.name for entry in fields(OrderDirections) if entry.name != "order")
+
+
+def save_npz(field: DirectionField, path: str | os.PathLike[str]) -> None:
+    """Write a field, whole or not at all.
+
+    Parameters
+    ----------
+    field
+        The field.
+    path
+        The file.
+
+    Raises
+    ------
+    FileAccessError
+        If the file cannot be written.
+    """
+    arrays: dict[str, npt.NDArray[np.generic]] = {
+        "schema": np.array(SCHEMA),
+        "status_names": np.array([f"{flag.value}:{flag.name}" for flag in Status]),
+        "orders": np.array(field.orders, dtype=np.int64),
+    }
+    for entry in fields(field):
+        if entry.name != "directions":
+            arrays[entry.name] = getattr(field, entry.name)
+    for order, rows in field.directions.items():
+        for name in _ORDER_ARRAYS:
+            arrays[f"order{order}_{name}"] = getattr(rows, name)
+    with atomic_path(path) as temporary, temporary.open("wb") as stream:
+        np.savez(stream, **arrays)
+
+
+def load_npz(path: str | os.PathLike[str], names: tuple[str, ...]) -> dict[str, Any]:
+    """Read what makes a field.
+
+    Parameters
+    ----------
+    path
+        A file written by :func:`save_npz`.
+    names
+        The arrays that a field has beside its directions.
+
+    Returns
+    -------
+    dict
+        The arguments of :class:`DirectionField`.
+
+    Raises
+    ------
+    FileAccessError
+        If the file does not exist or cannot be read.
+    FileFormatError
+        If it is not a direction field, or of a newer schema.
+    """
+    source = Path(path)
+    try:
+        with np.load(source, allow_pickle=False) as data:
+            if not isinstance(data, np.lib.npyio.NpzFile) or "schema" not in data:
+                raise FileFormatError(f"{source} is not a direction field of pdtheory.")
+            if int(data["schema"]) > SCHEMA:
+                raise FileFormatError(
+                    f"{source} has schema {int(data['schema'])}; this version reads up to "
+                    f"{SCHEMA}, please upgrade pdtheory."
+                )
+            directions = {
+                int(order): OrderDirections(
+                    order=int(order),
+                    **{name: data[f"order{order}_{name}"] for name in _ORDER_ARRAYS},
+                )
+                for order in data["orders"]
+            }
+            return {name: data[name] for name in names} | {"directions": directions}
+    except FileNotFoundError as error:
+        raise FileAccessError(f"no such file: {source}.") from error
+    except OSError as error:
+        raise FileAccessError(f"cannot read {source}: {error.strerror or error}.") from error
+    except (zipfile.BadZipFile, EOFError, KeyError, ValueError) as error:
+        if isinstance(error, FileFormatError):
+            raise
+        raise FileFormatError(
+            f"{source} is not a direction field of pdtheory, or it is damaged ({error})."
+        ) from error
