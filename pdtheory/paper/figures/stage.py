@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from pdtheory.conventions import Kind
 from pdtheory.paper.figures.outcome import Job
-from pdtheory.paper.figures.tubes import tubes
+from pdtheory.paper.figures.tubes import Drapery, tubes
 from pdtheory.pointset.cloud import FloatArray, PointCloud
 from pdtheory.pointset.field import DirectionField
 
@@ -60,7 +60,7 @@ class Strokes:
     chosen: npt.NDArray[np.int64] | None = None
     amplitude: FloatArray | None = None
 
-    def mesh(self, surface: PointCloud, order: int) -> PointCloud:
+    def mesh(self, drapery: Drapery, order: int) -> PointCloud:
         """Return the strokes of one order as tubes on a surface."""
         rows = self.field[order]
         point = rows.point_index
@@ -77,7 +77,7 @@ class Strokes:
         thick = np.where(rows.kind == Kind.MAXIMUM, 1.0, _MINIMUM_WIDTH)
         point, share, thick = point[keep], share[keep], thick[keep]
         return tubes(
-            surface,
+            drapery,
             self.field.points[point],
             rows.vector[keep],
             self.field.frames[point, 2],
@@ -147,9 +147,10 @@ def render(panel: Panel, path: Path, size: tuple[int, int], samples: int) -> Non
     if patch is not None:
         part = add_surface(patch, collection=scene.collection)
         part.data.materials[0] = _patch_material(part.data.materials[0])
+    drapery = Drapery(panel.surface)
     for strokes in panel.strokes:
         for order in strokes.orders:
-            mesh = strokes.mesh(panel.surface, order)
+            mesh = strokes.mesh(drapery, order)
             if len(mesh):
                 thing = add_surface(mesh, collection=scene.collection)
                 thing.data.materials[0] = order_material(order)

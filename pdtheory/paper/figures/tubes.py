@@ -19,8 +19,58 @@ _NEAR: Final = 32
 _SUNK: Final = 0.3
 
 
+class Drapery:
+    """A mesh onto which things fall along lines.
+
+    Parameters
+    ----------
+    surface
+        The mesh.
+    """
+
+    def __init__(self, surface: PointCloud) -> None:
+        assert surface.faces is not None
+        self._corners = surface.points[surface.faces]
+        self._centres = cKDTree(self._corners.mean(axis=1))
+
+    def fall(self, points: FloatArray, normals: FloatArray, reach: FloatArray) -> FloatArray:
+        """Return the signed distance along the normal from points to the mesh.
+
+        Parameters
+        ----------
+        points, normals : (N, 3) float64
+            Lines.
+        reach : (N,) float64
+            Largest distance looked for.
+
+        Returns
+        -------
+        (N,) float64
+            NaN where the mesh is too far.
+        """
+        _, near = self._centres.query(points, k=min(_NEAR, len(self._corners)))
+        triangle = self._corners[near.reshape(len(points), -1)]
+        edge, other = triangle[:, :, 1] - triangle[:, :, 0], triangle[:, :, 2] - triangle[:, :, 0]
+        # Moeller and Trumbore: barycentric coordinates of the line in each triangle.
+        ray = np.broadcast_to(normals[:, None], edge.shape)
+        across = np.cross(ray, other)
+        size = np.einsum("nti,nti->nt", edge, across)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            offset = points[:, None] - triangle[:, :, 0]
+            u = np.einsum("nti,nti->nt", offset, across) / size
+            turned = np.cross(offset, edge)
+            v = np.einsum("nti,nti->nt", ray, turned) / size
+            distance = np.einsum("nti,nti->nt", other, turned) / size
+            inside = (u >= -1e-6) & (v >= -1e-6) & (u + v <= 1 + 1e-6)
+            hit = inside & (np.abs(distance) <= reach[:, None])
+        gap = np.where(hit, np.abs(distance), np.inf)
+        best = gap.argmin(axis=1)
+        rows = np.arange(len(points))
+        return np.where(np.isfinite(gap[rows, best]), distance[rows, best], np.nan)
+
+
 def tubes(
-    surface: PointCloud,
+    drapery: Drapery,
     start: FloatArray,
     direction: FloatArray,
     normal: FloatArray,
@@ -31,8 +81,8 @@ def tubes(
 
     Parameters
     ----------
-    surface
-        A mesh.
+    drapery
+        The mesh.
     start, direction, normal : (M, 3) float64
         Where each tube starts, its unit tangent and the unit normal there.
     length, radius : (M,) float64
@@ -49,7 +99,7 @@ def tubes(
     lines = start[:, None] + (length[:, None] * along)[:, :, None] * direction[:, None]
     # A short step first tells how steeply the surface leaves the tangent plane.
     short = 0.1 / _PIECES
-    first = drape(surface, start + (short * length)[:, None] * direction, normal, length)
+    first = drapery.fall(start + (short * length)[:, None] * direction, normal, length)
     height = np.zeros(lines.shape[:2])
     before = height[:, 0] - np.nan_to_num(first) / short / _PIECES
     for piece in range(1, _PIECES + 1):
@@ -57,50 +107,11 @@ def tubes(
         here = height[:, piece - 1]
         guess = 2 * here - before
         ahead = lines[:, piece] + np.nan_to_num(guess)[:, None] * normal
-        height[:, piece] = guess + drape(surface, ahead, normal, length / 2)
+        height[:, piece] = guess + drapery.fall(ahead, normal, length / 2)
         before = here
     height = _hold_on(height, lines)
     lines = lines + height[:, :, None] * normal[:, None]
     return _around(lines, direction, normal, radius)
-
-
-def drape(
-    surface: PointCloud, points: FloatArray, normals: FloatArray, reach: FloatArray
-) -> FloatArray:
-    """Return the signed distance along the normal from points to the mesh, NaN if it is too far.
-
-    Parameters
-    ----------
-    surface
-        A mesh.
-    points, normals : (N, 3) float64
-        Lines.
-    reach : (N,) float64
-        Largest distance looked for.
-    """
-    assert surface.faces is not None
-    corners = surface.points[surface.faces]
-    tree = cKDTree(corners.mean(axis=1))
-    _, near = tree.query(points, k=min(_NEAR, len(corners)))
-    triangle = corners[near.reshape(len(points), -1)]
-    edge, other = triangle[:, :, 1] - triangle[:, :, 0], triangle[:, :, 2] - triangle[:, :, 0]
-    # Moeller and Trumbore: barycentric coordinates of the line in each triangle.
-    ray = np.broadcast_to(normals[:, None], edge.shape)
-    across = np.cross(ray, other)
-    size = np.einsum("nti,nti->nt", edge, across)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        offset = points[:, None] - triangle[:, :, 0]
-        u = np.einsum("nti,nti->nt", offset, across) / size
-        turned = np.cross(offset, edge)
-        v = np.einsum("nti,nti->nt", ray, turned) / size
-        distance = np.einsum("nti,nti->nt", other, turned) / size
-        hit = (
-            (u >= -1e-6) & (v >= -1e-6) & (u + v <= 1 + 1e-6) & (np.abs(distance) <= reach[:, None])
-        )
-    gap = np.where(hit, np.abs(distance), np.inf)
-    best = gap.argmin(axis=1)
-    rows = np.arange(len(points))
-    return np.where(np.isfinite(gap[rows, best]), distance[rows, best], np.nan)
 
 
 def _hold_on(height: FloatArray, lines: FloatArray) -> FloatArray:
