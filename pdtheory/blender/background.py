@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
+import os
+import sys
 import threading
 from collections.abc import Callable
-from typing import Generic, TypeVar
+from typing import Final, Generic, TypeVar
 
 from pdtheory.errors import Cancelled
 
 T = TypeVar("T")
+
 Report = Callable[[float, str], None]
+
+#: How much less urgent the work is than the window, from 0 to 19.
+_NICE: Final = 10
 
 
 class Job(Generic[T]):
@@ -82,7 +88,18 @@ class Job(Generic[T]):
         self.fraction, self.text = fraction, text
 
     def _run(self) -> None:
+        _give_way()
         try:
             self._result = self._work(self._report)
         except BaseException as error:
             self._error = error
+
+
+def _give_way() -> None:
+    """Let the window be served before this thread and those that it starts.
+
+    Only Linux knows priorities of threads by number; elsewhere the system favours the window that
+    the user looks at.
+    """
+    if sys.platform == "linux":
+        os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), _NICE)

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import os
+import sys
 import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
@@ -68,3 +71,20 @@ def test_errors_come_out_where_the_result_would():
 
 def test_run_here_does_it_at_once():
     assert Job(lambda report: 7).run_here() == 7
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="priorities of threads are Linux's")
+def test_work_and_its_threads_give_way_to_the_window():
+    def priority():
+        return os.getpriority(os.PRIO_PROCESS, threading.get_native_id())
+
+    def work(report):
+        with ThreadPoolExecutor(1) as pool:
+            return priority(), pool.submit(priority).result()
+
+    before = priority()
+    job = Job(work)
+    job.start()
+    assert job.wait(5)
+    assert min(job.result()) > min(before, 18)
+    assert priority() == before

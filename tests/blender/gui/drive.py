@@ -263,6 +263,8 @@ def play():
 
 
 bpy.context.preferences.view.show_splash = False
+# Without a graphics card each of the viewport's many smoothing passes is half a second of drawing.
+bpy.context.preferences.system.viewport_aa = "OFF"
 QUIET = (0.33, 0.33, 0.33)
 bpy.context.preferences.use_preferences_save = False
 paint_buttons(LOUD)
