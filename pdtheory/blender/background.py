@@ -14,7 +14,7 @@ T = TypeVar("T")
 
 Report = Callable[[float, str], None]
 
-#: How much less urgent the work is than the window, from 0 to 19.
+#: How much less urgent than the window the work is, in steps of `nice`.
 _NICE: Final = 10
 
 
@@ -98,8 +98,8 @@ class Job(Generic[T]):
 def _give_way() -> None:
     """Let the window be served before this thread and those that it starts.
 
-    Only Linux knows priorities of threads by number; elsewhere the system favours the window that
-    the user looks at.
+    On Linux this is a matter of the thread; elsewhere it would be one of the whole program, and the
+    system favours the window that the user looks at.
     """
     if sys.platform == "linux":
-        os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), _NICE)
+        os.nice(_NICE)

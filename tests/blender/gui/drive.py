@@ -158,6 +158,22 @@ def compute():
     report["seconds"] = time.monotonic() - started
 
 
+def prepare_large():
+    """Set up a hundred thousand vertices, with the kernels compiled."""
+    prepare(16)
+    bpy.ops.principal_directions.compute()
+    prepare(183)
+
+
+def large_under_way():
+    """Click Compute on a large object and return in the middle of it."""
+    prepare_large()
+    yield from open_tab()
+    yield from click()
+    yield from wait_for(running, 20.0)
+    yield from wait_for(lambda: bpy.context.window_manager.principal_directions.fraction > 0.1)
+
+
 def scenario_compute():
     prepare(40)
     yield from open_tab()
@@ -179,9 +195,7 @@ def scenario_compute():
 
 
 def scenario_large():
-    prepare(16)
-    bpy.ops.principal_directions.compute()  # compiles, where nothing is in the cache
-    prepare(183)
+    prepare_large()
     report["vertices"] = len(bpy.context.object.data.vertices)
     yield from open_tab()
     yield from compute()
@@ -191,13 +205,7 @@ def scenario_large():
 
 
 def scenario_escape():
-    prepare(16)
-    bpy.ops.principal_directions.compute()
-    prepare(183)
-    yield from open_tab()
-    yield from click()
-    yield from wait_for(running, 20.0)
-    yield from wait_for(lambda: bpy.context.window_manager.principal_directions.fraction > 0.1)
+    yield from large_under_way()
     pressed = time.monotonic()
     xdotool("mousemove", 400, 400, "key", "Escape")
     yield from wait_for(lambda: not running(), 20.0)
@@ -206,13 +214,7 @@ def scenario_escape():
 
 
 def scenario_deleted():
-    prepare(16)
-    bpy.ops.principal_directions.compute()
-    prepare(183)
-    yield from open_tab()
-    yield from click()
-    yield from wait_for(running, 20.0)
-    yield from wait_for(lambda: bpy.context.window_manager.principal_directions.fraction > 0.1)
+    yield from large_under_way()
     bpy.data.objects.remove(bpy.context.object)
     yield from wait_for(lambda: not running())
     yield 0.5
@@ -220,13 +222,7 @@ def scenario_deleted():
 
 
 def scenario_new_file():
-    prepare(16)
-    bpy.ops.principal_directions.compute()
-    prepare(183)
-    yield from open_tab()
-    yield from click()
-    yield from wait_for(running, 20.0)
-    yield from wait_for(lambda: bpy.context.window_manager.principal_directions.fraction > 0.1)
+    yield from large_under_way()
     bpy.ops.wm.read_homefile(use_factory_startup=True)
     yield 2.0
     report["running"] = running()
