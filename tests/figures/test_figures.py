@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +13,7 @@ import pytest
 from pdtheory.errors import FileAccessError, InputError
 from pdtheory.paper.figures import catalogue
 from pdtheory.paper.figures.index import write_index
-from pdtheory.paper.figures.models import KNOWN, find
+from pdtheory.paper.figures.models import find
 from pdtheory.paper.figures.outcome import Check, Figure, Job, Outcome, at_most, equal
 from pdtheory.paper.figures.run import Made, make, record
 
@@ -29,9 +30,9 @@ def job(**options: object) -> Job:
 
 def named(name: str) -> Figure:
     figure = catalogue.get(name)
-    for model in figure.models:
-        if not any((MODELS / KNOWN[model][0]).parent.glob(f"{model}.*")):
-            pytest.skip(f"the scan {model} is not in {MODELS}; set PDTHEORY_MODELS")
+    for names in figure.models:
+        if not any(any(MODELS.glob(f"{model}.*")) for model in names):
+            pytest.skip(f"{' or '.join(names)} is not in {MODELS}; set PDTHEORY_MODELS")
     return figure
 
 
@@ -97,7 +98,7 @@ def test_absent_scans_are_skipped_with_a_sentence(
     monkeypatch.delenv("PDTHEORY_MODELS", raising=False)
     (made,) = make(["head"], Job("small", tmp_path), tmp_path / "out")
     assert made.outcome is None
-    assert "igea was not found" in made.skipped
+    assert "david or igea was not found" in made.skipped
     assert made.skipped.endswith(".")
     assert isinstance(made, Made)
 
@@ -105,20 +106,27 @@ def test_absent_scans_are_skipped_with_a_sentence(
 def test_a_scan_of_ones_own_is_found_in_the_folder_given(tmp_path: Path) -> None:
     own = tmp_path / "david.off"
     own.write_text("OFF\n")
-    assert find("david", tmp_path) == own
+    assert find("david", folder=tmp_path) == own
     with pytest.raises(FileAccessError, match="david was not found"):
-        find("david", tmp_path / "elsewhere")
+        find("david", folder=tmp_path / "elsewhere")
 
 
-def test_a_preferred_scan_takes_the_place_of_the_public_one(tmp_path: Path) -> None:
-    from pdtheory.paper.figures import scans
-
-    box = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"
-    (tmp_path / "igea.obj").write_text(box)
-    scan = scans.Scan("igea", (2,), preferred="david")
-    assert scans._mesh(scan, Job("small", tmp_path)).name == "igea.obj"
-    (tmp_path / "david.obj").write_text(box)
-    assert scans._mesh(scan, Job("small", tmp_path)).name == "david.obj"
+def test_a_preferred_scan_takes_the_place_of_the_public_one(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("pdtheory.paper.figures.models._fetch", lambda name: None)
+    monkeypatch.delenv("PDTHEORY_MODELS", raising=False)
+    needed = catalogue.get("head").models
+    assert needed == (("david", "igea"),)
+    for own in ("igea.obj", "david.obj"):
+        (tmp_path / own).write_text("v 0 0 0\n")
+        assert find(*needed[0], folder=tmp_path).name == own
+    # It is enough alone.
+    (tmp_path / "igea.obj").unlink()
+    shown = replace(catalogue.get("head"), compute=lambda job: Outcome([], {}, {}, None))
+    monkeypatch.setattr(catalogue, "get", lambda name: shown)
+    (made,) = make(["head"], Job("small", tmp_path), tmp_path / "out", data_only=True)
+    assert not made.skipped
 
 
 def test_unknown_figures_are_refused(tmp_path: Path) -> None:

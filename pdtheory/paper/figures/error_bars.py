@@ -46,7 +46,7 @@ def deviations(clean: OrderDirections, noisy: OrderDirections) -> FloatArray:
 
 def compute(job: Job) -> Outcome:
     """Repeat the estimation with fresh noise, and count how often the error bars hold the truth."""
-    mesh = load(_MODEL, job)
+    mesh = load((_MODEL,), job)
     count = job.pick(40_000, 150_000, 1_000_000)
     spots = job.pick(60, 700, 700)
     repeats = job.pick(4, 6, 20)
@@ -136,5 +136,5 @@ FIGURE = Figure(
     "either side.",
     compute,
     draw,
-    (_MODEL,),
+    ((_MODEL,),),
 )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Final
 
@@ -44,13 +45,13 @@ KNOWN: Final = {
 _SUFFIXES: Final = (".ply", ".obj", ".off", ".stl")
 
 
-def find(name: str, folder: Path | None = None) -> Path:
-    """Return the path of a scan.
+def find(*names: str, folder: Path | None = None) -> Path:
+    """Return the path of a scan, or of one that may stand in for it.
 
     Parameters
     ----------
-    name
-        Name without suffix, such as ``armadillo``, or ``david`` for a scan that is not public.
+    names
+        Names without suffix, the best first: ``david``, which is not public, then ``igea``.
     folder
         Looked at first; then the folder in the environment variable ``PDTHEORY_MODELS``, then the
         cache, then the network.
@@ -58,29 +59,30 @@ def find(name: str, folder: Path | None = None) -> Path:
     Raises
     ------
     FileAccessError
-        If it is nowhere; the sentence says where it was looked for.
+        If none of them is anywhere; the sentence says where they were looked for.
     """
     folders = [folder] if folder is not None else []
     if os.environ.get(VARIABLE):
         folders.append(Path(os.environ[VARIABLE]))
-    for place in folders:
-        for suffix in _SUFFIXES:
-            path = place / f"{name}{suffix}"
-            if path.is_file():
-                return path
-    fetched = _fetch(name)
-    if fetched is not None:
-        return fetched
+    for name in names:
+        for place in folders:
+            for suffix in _SUFFIXES:
+                path = place / f"{name}{suffix}"
+                if path.is_file():
+                    return path
+        fetched = _fetch(name)
+        if fetched is not None:
+            return fetched
     looked = ", ".join(str(place) for place in folders) or "no folder"
     raise FileAccessError(
-        f"the scan {name} was not found (looked in {looked}, the cache and the network); give its "
-        f"folder with --models or {VARIABLE}."
+        f"the scan {' or '.join(names)} was not found (looked in {looked}, the cache and the "
+        f"network); give its folder with --models or {VARIABLE}."
     )
 
 
-def load(name: str, job: Job) -> PointCloud:
-    """Read a scan, as a mesh."""
-    return read_cloud(find(name, job.models))
+def load(names: Sequence[str], job: Job) -> PointCloud:
+    """Read the first scan found of several, as a mesh."""
+    return read_cloud(find(*names, folder=job.models))
 
 
 def _fetch(name: str) -> Path | None:

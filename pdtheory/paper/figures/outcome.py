@@ -142,8 +142,8 @@ class Figure:
         Computes data and checks.
     draw : callable
         Writes the pictures into a folder and returns their paths, the main one first.
-    models : tuple of str
-        Scans that it needs.
+    models : tuple of tuples of str
+        Scans that it needs; of each the names that will do, the best first.
     """
 
     name: str
@@ -151,7 +151,7 @@ class Figure:
     caption: str
     compute: Callable[[Job], Outcome]
     draw: Callable[[Job, Outcome, Path], list[Path]]
-    models: tuple[str, ...] = ()
+    models: tuple[tuple[str, ...], ...] = ()
 
 
 __all__ = [

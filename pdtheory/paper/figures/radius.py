@@ -27,7 +27,7 @@ _LARGEST = 4.0
 
 def compute(job: Job) -> Outcome:
     """Estimate order 6 at the point that faces the front and shows it at every radius."""
-    mesh = load(_MODEL, job)
+    mesh = load((_MODEL,), job)
     count = job.pick(100_000, 300_000, 2_000_000)
     cloud = sample(mesh, count, job.seed)
     assert cloud.normals is not None
@@ -135,5 +135,5 @@ FIGURE = Figure(
     "in green.",
     compute,
     draw,
-    (_MODEL,),
+    ((_MODEL,),),
 )

@@ -10,7 +10,6 @@ import numpy as np
 import numpy.typing as npt
 
 from pdtheory.conventions import UNANSWERED
-from pdtheory.errors import FileAccessError
 from pdtheory.paper.figures.measure import anisotropy, eigen_residual, refit_difference, turned
 from pdtheory.paper.figures.models import load
 from pdtheory.paper.figures.outcome import Check, Figure, Job, Outcome, at_most
@@ -64,6 +63,11 @@ class Scan:
     sharp: bool = False
     preferred: str = ""
     title: str = ""
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The names of the scans that will do, the best first."""
+        return (self.preferred, self.name) if self.preferred else (self.name,)
 
 
 @dataclass(frozen=True)
@@ -121,7 +125,7 @@ def sharp_vertices(mesh: PointCloud) -> FloatArray:
 
 def show(scan: Scan, job: Job) -> tuple[Shown, list[Check], dict[str, object]]:
     """Compute the directions of one scan at evenly spread points, and check them."""
-    mesh = _mesh(scan, job)
+    mesh = load(scan.names, job)
     count = job.pick(150_000, 300_000, 5_000_000)
     cloud = sample(mesh, count, job.seed)
     radius = scan.radius * mesh.diagonal
@@ -178,15 +182,6 @@ def show(scan: Scan, job: Job) -> tuple[Shown, list[Check], dict[str, object]]:
     area = np.linalg.norm(np.ptp(seen, axis=0)) ** 2
     spacing = float(np.sqrt(area / len(spots_at)))
     return Shown(scan, mesh, field, chosen, spacing, focus), checks, numbers
-
-
-def _mesh(scan: Scan, job: Job) -> PointCloud:
-    if scan.preferred:
-        try:
-            return load(scan.preferred, job)
-        except FileAccessError:
-            pass  # most users have no such scan; the public one stands in for it
-    return load(scan.name, job)
 
 
 def _box(scan: Scan, mesh: PointCloud) -> tuple[FloatArray, FloatArray | None]:
@@ -248,7 +243,7 @@ def figure(
         panels = [panel(shown) for shown in outcome.scene]
         return sheet(job, panels, folder, name, columns=columns, size=size)
 
-    needed = tuple(dict.fromkeys(scan.name for scan in scans))
+    needed = tuple(dict.fromkeys(scan.names for scan in scans))
     return Figure(name, redraws, caption, compute, draw, needed)
 
 
