@@ -223,9 +223,12 @@ def _run(*command: str) -> str:
     Raises
     ------
     ComputationError
-        If it fails.
+        If it fails, or cannot be started.
     """
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+    except OSError as error:
+        raise ComputationError(f"{command[0]} does not start ({error.strerror}).") from error
     if done.returncode:
         said = (done.stderr.strip() or done.stdout.strip()).splitlines()
         raise ComputationError(
@@ -251,10 +254,10 @@ def find_blender(given: Path | None = None) -> Path:
     if given is not None:
         if not given.is_file():
             raise InputError(f"no such program: {given}; give the path of Blender.")
-        return given
+        return given.absolute()
     for candidate in _candidates():
         if candidate.is_file():
-            return candidate
+            return candidate.absolute()
     raise InputError("no Blender found; say where it is with --blender PATH.")
 
 

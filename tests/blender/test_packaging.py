@@ -6,6 +6,7 @@ import subprocess
 import sys
 import tomllib
 import zipfile
+from pathlib import Path
 
 import pytest
 from typer.testing import CliRunner
@@ -89,6 +90,16 @@ def test_blender_is_found_or_asked_for(tmp_path, monkeypatch):
     assert packaging.find_blender() == program
     with pytest.raises(InputError, match="no such program"):
         packaging.find_blender(tmp_path / "missing")
+    # A program is started by its path, not searched for by its bare name.
+    monkeypatch.chdir(tmp_path)
+    assert packaging.find_blender(Path("blender")) == program
+
+
+def test_a_program_that_does_not_start_is_a_sentence(tmp_path):
+    program = tmp_path / "blender"
+    program.write_text("")
+    with pytest.raises(ComputationError, match="blender does not start"):
+        packaging.python_of(program)
 
 
 @pytest.mark.parametrize(("content", "message"), [(None, "no such file"), (b"x", "is no zip")])
