@@ -303,8 +303,14 @@ def install_zip(blender: Path, package: Path) -> None:
     with _opened(package) as archive:
         if "blender_manifest.toml" not in archive.namelist():
             raise InputError(f"{package} is no Blender extension; build one with addon build.")
-    command = (str(blender), "--command", "extension", "install-file")
-    _run(*command, "--repo", "user_default", "--enable", str(package.resolve()))
+    extension = (str(blender), "--command", "extension")
+    said = _run(
+        *extension, "install-file", "--repo", "user_default", "--enable", str(package.resolve())
+    )
+    # Blender ends well, too, where it refuses a zip for another version.
+    if "principal_directions [installed]" not in _run(*extension, "list"):
+        reason = next((line for line in said.splitlines() if "ERROR" in line), "it did not say why")
+        raise ComputationError(f"{blender} did not take {package.name}: {reason.strip()}.")
 
 
 @contextmanager

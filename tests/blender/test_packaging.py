@@ -111,6 +111,18 @@ def test_what_is_no_extension_is_not_installed(tmp_path, content, message):
         packaging.install_zip(tmp_path / "blender", package)
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="the stand-in for Blender is a shell script")
+def test_a_zip_that_blender_refuses_is_a_sentence(tmp_path):
+    package = tmp_path / "package.zip"
+    with zipfile.ZipFile(package, "w") as archive:
+        archive.writestr("blender_manifest.toml", "")
+    program = tmp_path / "blender"
+    program.write_text("#!/bin/sh\n[ $3 = list ] || echo 'ERROR: needs version 5.1.0'\n")
+    program.chmod(0o755)
+    with pytest.raises(ComputationError, match="ERROR: needs version 5"):
+        packaging.install_zip(program, package)
+
+
 def test_installing_without_a_zip_says_how_to_build_one(tmp_path, monkeypatch):
     from pdtheory.cli.addon import app
 
