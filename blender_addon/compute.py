@@ -5,10 +5,10 @@ from types import SimpleNamespace
 
 import bpy
 
-from pdtheory.blender.glyphs import glyph_data
 from pdtheory.blender.proposal import propose_radius
 from pdtheory.blender.result import describe, show_result
 from pdtheory.blender.source import read_object
+from pdtheory.drawing.glyphs import glyph_data
 from pdtheory.errors import InputError, PdtheoryError
 
 from .jobs import JobOperator, prepare, surface_object

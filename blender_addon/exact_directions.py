@@ -13,7 +13,7 @@ from pdtheory.blender import compat
 from pdtheory.blender.comparison import compare_fields
 from pdtheory.blender.result import field_of, show_result, strokes_of
 from pdtheory.blender.source import read_object
-from pdtheory.blender.thinning import choose_spots
+from pdtheory.drawing.thinning import choose_spots
 from pdtheory.errors import InputError
 
 from .jobs import JobOperator, prepare, surface_object

@@ -12,7 +12,7 @@ from bpy.props import (
     StringProperty,
 )
 
-from pdtheory.blender.needles import ORDERS
+from pdtheory.drawing.glyphs import ORDERS
 
 #: The orders that can be computed in Blender.
 CHOICES = tuple(order for order in ORDERS if order <= 8)

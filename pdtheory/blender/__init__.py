@@ -5,6 +5,6 @@ inside Blender, and in any process that has imported `bpy`; only they and the ex
 """
 
 from pdtheory.blender.draw import draw_field
-from pdtheory.blender.view import View
+from pdtheory.drawing.view import View
 
 __all__ = ["View", "draw_field"]

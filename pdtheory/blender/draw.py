@@ -18,8 +18,9 @@ from typing import BinaryIO, Final, cast
 import numpy as np
 
 from pdtheory.atomic import atomic_path
-from pdtheory.blender.view import View, natural_view
 from pdtheory.conventions import Kind
+from pdtheory.drawing.glyphs import CERTAIN
+from pdtheory.drawing.view import View, natural_view
 from pdtheory.errors import ComputationError, InputError
 from pdtheory.pointset.cloud import FloatArray, PointCloud
 from pdtheory.pointset.field import DirectionField
@@ -27,9 +28,6 @@ from pdtheory.pointset.field import DirectionField
 Progress = Callable[[float, str], None]
 
 SUFFIXES: Final = (".png", ".blend")
-
-#: Standard deviation, in radians, up to which a direction is worth drawing: 20 degrees.
-CERTAIN: Final = 0.35
 
 _KINDS: Final = {
     "max": frozenset({Kind.MAXIMUM}),
@@ -125,7 +123,7 @@ def draw_field(
         Directions whose standard deviation is larger (radians) are left out.
     up, azimuth, elevation
         The axis of the data that points up, and the camera's place in degrees; chosen from the
-        shape by default (:func:`pdtheory.blender.view.natural_view`).
+        shape by default (:func:`pdtheory.drawing.view.natural_view`).
     resolution
         Width and height of the picture in pixels.
     samples

@@ -14,12 +14,12 @@ import bpy
 from pdtheory.blender import compat
 from pdtheory.blender.nodes import Builder
 from pdtheory.conventions import ORDER_COLOURS
+from pdtheory.drawing.glyphs import ORDERS
 
 #: Version of the group; a file with an older one keeps it, new objects get the new one.
 VERSION: Final = 1
 GROUP_NAME: Final = f"Principal directions {VERSION}"
 
-ORDERS: Final = tuple(sorted(ORDER_COLOURS))
 STYLES: Final = ("Needles", "Arrows", "Lines")
 
 #: Minima are drawn thinner than maxima, so that both can be told apart where they cross.

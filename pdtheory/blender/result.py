@@ -15,9 +15,10 @@ import numpy as np
 import numpy.typing as npt
 from mathutils import Matrix
 
-from pdtheory.blender.glyphs import GlyphData, add_glyphs, fill_mesh, glyph_data, offer_orders
+from pdtheory.blender.glyphs import add_glyphs, fill_mesh, offer_orders
 from pdtheory.blender.source import Source, read_object
 from pdtheory.conventions import UNANSWERED, Status
+from pdtheory.drawing.glyphs import GlyphData, glyph_data
 from pdtheory.errors import InputError
 from pdtheory.pointset.cloud import FloatArray
 from pdtheory.pointset.directions import OrderDirections

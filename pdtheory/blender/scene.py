@@ -14,7 +14,7 @@ from mathutils import Matrix
 from scipy.ndimage import map_coordinates
 
 from pdtheory.blender import compat
-from pdtheory.blender.view import View
+from pdtheory.drawing.view import View
 from pdtheory.errors import ComputationError, FileAccessError, InputError
 from pdtheory.pointset.cloud import FloatArray
 

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from pdtheory.blender import compat
-from pdtheory.blender.thinning import choose_spots
+from pdtheory.drawing.thinning import choose_spots
 from pdtheory.errors import InputError
 from pdtheory.pointset.cloud import FloatArray, IntArray, PointCloud
 

@@ -58,9 +58,10 @@ def build_scene(job: DrawingJob) -> Any:
     import numpy as np
 
     from pdtheory.blender import compat, scene
-    from pdtheory.blender.glyphs import add_glyphs, glyph_data
+    from pdtheory.blender.glyphs import add_glyphs
     from pdtheory.blender.surface import add_points, add_surface
     from pdtheory.conventions import Kind
+    from pdtheory.drawing.glyphs import glyph_data
 
     stage = scene.new_file()
     stage.render.resolution_x, stage.render.resolution_y = job.resolution

@@ -597,7 +597,7 @@ def test_strokes_render_in_cycles(operators, tmp_path):
     from pdtheory.blender import compat
     from pdtheory.blender.result import strokes_of
     from pdtheory.blender.scene import render_picture, set_stage
-    from pdtheory.blender.view import View
+    from pdtheory.drawing.view import View
 
     operators.add_monkey(resolution=16)
     thing = bpy.context.object
@@ -641,7 +641,7 @@ def test_a_million_strokes_do_not_crash(operators):
     from dataclasses import replace
 
     from pdtheory.blender import compat
-    from pdtheory.blender.glyphs import glyph_data
+    from pdtheory.drawing.glyphs import glyph_data
 
     data = glyph_data(field)
     times = -(-1_000_000 // len(data))

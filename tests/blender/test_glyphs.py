@@ -16,7 +16,8 @@ LENGTH = 0.03
 @pytest.fixture
 def strokes(scene, torus_field):
     """Strokes at every point, all of one length, on their tangents."""
-    from pdtheory.blender.glyphs import add_glyphs, glyph_data
+    from pdtheory.blender.glyphs import add_glyphs
+    from pdtheory.drawing.glyphs import glyph_data
 
     glyphs = add_glyphs(glyph_data(torus_field[1]), name="strokes", collection=scene.collection)
     tune(glyphs, **{"Spacing": 0.0, "Length": LENGTH, "Lift": 0.0, "One Order Per Point": False})
@@ -186,7 +187,7 @@ def test_strength_can_set_the_length(strokes, torus_field):
 
 
 def test_an_order_that_was_not_computed_is_refused(torus_field, scene):
-    from pdtheory.blender.glyphs import glyph_data
+    from pdtheory.drawing.glyphs import glyph_data
 
     with pytest.raises(InputError, match="order 5 was not computed"):
         glyph_data(torus_field[1], (2, 5))
@@ -195,7 +196,8 @@ def test_an_order_that_was_not_computed_is_refused(torus_field, scene):
 def test_one_node_group_serves_all(scene, torus_field):
     import bpy
 
-    from pdtheory.blender.glyphs import add_glyphs, glyph_data
+    from pdtheory.blender.glyphs import add_glyphs
+    from pdtheory.drawing.glyphs import glyph_data
 
     data = glyph_data(torus_field[1])
     first, second = (

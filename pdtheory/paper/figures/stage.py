@@ -137,7 +137,7 @@ def render(panel: Panel, path: Path, size: tuple[int, int], samples: int) -> Non
     from pdtheory.blender.needles import order_material
     from pdtheory.blender.scene import new_file, render_picture, set_stage
     from pdtheory.blender.surface import add_surface
-    from pdtheory.blender.view import View
+    from pdtheory.drawing.view import View
 
     scene = new_file()
     scene.render.resolution_x, scene.render.resolution_y = size

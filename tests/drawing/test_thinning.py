@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 
-from pdtheory.blender.thinning import choose_spots
+from pdtheory.drawing.thinning import choose_spots
 
 
 @pytest.fixture(scope="module")

@@ -1,0 +1,1 @@
+"""What every picture of a field starts from: which points, which strokes, from where."""

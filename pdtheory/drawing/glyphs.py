@@ -1,0 +1,114 @@
+"""Directions laid out for drawing: flat, with what thins, bends and scales the strokes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+
+from pdtheory.conventions import ORDER_COLOURS
+from pdtheory.drawing.thinning import Spots, choose_spots
+from pdtheory.errors import InputError
+from pdtheory.pointset.cloud import FloatArray
+from pdtheory.pointset.field import DirectionField
+
+#: The orders that have a colour to be drawn in.
+ORDERS: Final = tuple(sorted(ORDER_COLOURS))
+
+#: Standard deviation, in radians, up to which a direction is worth drawing: 20 degrees.
+CERTAIN: Final = 0.35
+
+#: A stroke reaches this part of the way to the next spot.
+REACH: Final = 0.46
+
+
+@dataclass(frozen=True)
+class GlyphData:
+    """Directions of several orders, flat: one row for each direction.
+
+    Attributes
+    ----------
+    position : (M, 3) float64
+        Where each direction stands.
+    attributes : mapping of str to (M,) or (M, 3) array
+        What is drawn: `direction` and `surface_normal` (unit vectors), `order`, `kind`, `point`
+        (index in the field), `eigenvalue`, `eigenvalue_std`, `strength`, `angle_std`,
+        `relative_strength` (by the 90 % quantile of its order, at most 1.5), `bend` (half the
+        normal curvature in the direction, 1/length), `spacing` and `turn` of the point
+        (:mod:`pdtheory.drawing.thinning`).
+    spots : Spots
+        Spacing and turn of every point of the field.
+    """
+
+    position: FloatArray
+    attributes: Mapping[str, npt.NDArray[np.generic]]
+    spots: Spots
+
+    def __len__(self) -> int:
+        return len(self.position)
+
+
+def glyph_data(field: DirectionField, orders: Iterable[int] | None = None) -> GlyphData:
+    """Lay out the directions of a field for drawing.
+
+    Parameters
+    ----------
+    field
+        The directions.
+    orders
+        The orders to take; all of the field by default.
+
+    Raises
+    ------
+    InputError
+        If the field does not hold one of the orders, or an order has no colour to draw it in.
+    """
+    wanted = tuple(field.orders if orders is None else orders)
+    for order in wanted:
+        if order not in ORDERS:
+            raise InputError(
+                f"order {order} cannot be drawn; choose from {ORDERS[0]} to {ORDERS[-1]}."
+            )
+    rows = [field[order] for order in wanted]
+    usable = np.zeros(len(field), dtype=bool)
+    certain = np.zeros(len(field), dtype=np.int64)
+    for row in rows:
+        usable |= np.diff(row.offsets) > 0
+        sure = row.point_index[row.angle_std <= CERTAIN]
+        certain[np.unique(sure)] += 1
+    spots = choose_spots(field.points, usable, preference=certain)
+    columns: dict[str, list[npt.NDArray[np.generic]]] = {}
+
+    def put(name: str, values: npt.NDArray[np.generic]) -> None:
+        columns.setdefault(name, []).append(values)
+
+    for row in rows:
+        point = row.point_index
+        typical = np.quantile(row.strength, 0.9) if len(row) else 1.0
+        put("position", field.points[point])
+        put("direction", row.vector)
+        put("surface_normal", field.frames[point, 2])
+        put("order", np.full(len(row), row.order))
+        put("kind", row.kind)
+        put("point", point)
+        put("eigenvalue", row.eigenvalue)
+        put("eigenvalue_std", row.eigenvalue_std)
+        put("strength", row.strength)
+        put("angle_std", row.angle_std)
+        put("relative_strength", np.minimum(row.strength / typical if typical else 0.0, 1.5))
+        put("bend", _bend(field, point, row.angle))
+        put("spacing", spots.spacing[point])
+        put("turn", spots.turn[point])
+    arrays = {name: np.concatenate(parts) for name, parts in columns.items()}
+    position = arrays.pop("position", np.empty((0, 3)))
+    return GlyphData(np.asarray(position, dtype=np.float64), arrays, spots)
+
+
+def _bend(field: DirectionField, point: npt.NDArray[np.int64], angle: FloatArray) -> FloatArray:
+    """Return g_2 at the angle of each direction, the height of the surface per squared length."""
+    constant = field.coefficient(2, 0)[point].real
+    turning = field.coefficient(2, 2)[point]
+    return np.asarray(constant + 2.0 * (turning * np.exp(2j * angle)).real)
