@@ -7,8 +7,7 @@ from typing import Annotated
 
 import typer
 
-from pdtheory.cli.options import check_target, parse_orders, progress_bar
-from pdtheory.errors import InputError
+from pdtheory.cli.options import check_target, parse_orders, parse_size, progress_bar
 
 
 def draw(
@@ -53,7 +52,7 @@ def draw(
 
     check_target(output, (".png", ".blend"))
     wanted = None if orders is None else parse_orders(orders)
-    resolution = _parse_size(size)
+    resolution = parse_size(size)
     directions = DirectionField.load(field)
     cloud = None if mesh is None else read_cloud(mesh)
     with progress_bar("Drawing", quiet=quiet) as report:
@@ -72,10 +71,3 @@ def draw(
             samples=samples,
             progress=report,
         )
-
-
-def _parse_size(text: str) -> tuple[int, int]:
-    width, times, height = text.lower().partition("x")
-    if not times or not width.strip().isdecimal() or not height.strip().isdecimal():
-        raise InputError(f"cannot read the size {text!r}; write it as 1280x960.")
-    return int(width), int(height)

@@ -20,6 +20,7 @@ from pdtheory.cli.inverse import inverse
 from pdtheory.cli.point import point
 from pdtheory.cli.sample import sample, surfaces
 from pdtheory.cli.verify import verify
+from pdtheory.cli.view import view
 from pdtheory.errors import PdtheoryError
 
 
@@ -65,7 +66,7 @@ def _main(
     pass
 
 
-for command in (demo, estimate, point, draw, sample, surfaces, inverse, cone, verify, figure):
+for command in (demo, estimate, point, draw, view, sample, surfaces, inverse, cone, verify, figure):
     app.command(command.__name__)(command)
 app.add_typer(addon, name="addon")
 # A formula may begin with a minus sign and is no option then.

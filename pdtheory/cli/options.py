@@ -54,6 +54,20 @@ def parse_orders(text: str, *, smallest: int = 1) -> tuple[int, ...]:
     return tuple(sorted(orders))
 
 
+def parse_size(text: str) -> tuple[int, int]:
+    """Read the size of a picture written as ``1280x960``.
+
+    Raises
+    ------
+    InputError
+        If the text is not such a size.
+    """
+    width, times, height = text.lower().partition("x")
+    if not times or not width.strip().isdecimal() or not height.strip().isdecimal():
+        raise InputError(f"cannot read the size {text!r}; write it as 1280x960.")
+    return int(width), int(height)
+
+
 def check_target(path: Path, suffixes: tuple[str, ...]) -> None:
     """Refuse an output before the work that would be lost with it.
 

@@ -1,0 +1,76 @@
+"""``pdtheory view``: a direction field in a window that answers the mouse."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from pdtheory.cli.options import check_target, parse_orders, parse_size
+
+
+def view(
+    field: Annotated[
+        Path, typer.Argument(help="Direction field (NPZ) to show.", show_default=False)
+    ],
+    mesh: Annotated[
+        Path | None,
+        typer.Option(help="Surface below the directions; without it their points are shown."),
+    ] = None,
+    orders: Annotated[
+        str | None, typer.Option(help="Orders switched on at first, such as 2,3; all if left out.")
+    ] = None,
+    kind: Annotated[str, typer.Option(help="Directions to show: max, min or both.")] = "max",
+    strokes: Annotated[int, typer.Option(help="About how many points carry strokes.")] = 800,
+    least_strength: Annotated[float, typer.Option(help="Leave out weaker directions.")] = 0.0,
+    largest_uncertainty: Annotated[
+        float, typer.Option(help="Leave out directions less certain than this, in degrees.")
+    ] = 20.0,
+    up: Annotated[
+        str | None, typer.Option(help="Axis that points up: x, y or z; by the shape if left out.")
+    ] = None,
+    azimuth: Annotated[
+        float | None, typer.Option(help="Degrees the camera goes round to the right of the front.")
+    ] = None,
+    elevation: Annotated[
+        float | None, typer.Option(help="Degrees the camera stands above the horizon.")
+    ] = None,
+    size: Annotated[str, typer.Option(help="Width x height of the window.")] = "1200x900",
+    screenshot: Annotated[
+        Path | None, typer.Option(help="Write this PNG instead of opening a window.")
+    ] = None,
+) -> None:
+    """Show directions on their surface in a window: a switch for each order, a strength slider.
+
+    Needs PyVista (extra viewer). With --screenshot no display is needed.
+
+    Example: pdtheory view field.npz --mesh scan.ply --orders 2,3
+    """
+    from math import radians
+
+    from pdtheory.io import read_cloud
+    from pdtheory.pointset.field import DirectionField
+    from pdtheory.viewer import view_field
+
+    if screenshot is not None:
+        check_target(screenshot, (".png",))
+    wanted = None if orders is None else parse_orders(orders)
+    resolution = parse_size(size)
+    directions = DirectionField.load(field)
+    view_field(
+        directions,
+        None if mesh is None else read_cloud(mesh),
+        orders=wanted,
+        kind=kind,
+        strokes=strokes,
+        least_strength=least_strength,
+        largest_uncertainty=radians(largest_uncertainty),
+        up=up,
+        azimuth=azimuth,
+        elevation=elevation,
+        size=resolution,
+        screenshot=screenshot,
+    )
+    if screenshot is not None:
+        typer.echo(f"Wrote {screenshot}")

@@ -1,0 +1,208 @@
+"""Which strokes are seen, and their lines in space."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Final, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+from scipy.spatial import cKDTree
+
+from pdtheory.conventions import Kind
+from pdtheory.drawing.glyphs import CERTAIN, REACH, GlyphData, glyph_data
+from pdtheory.errors import InputError
+from pdtheory.pointset.cloud import FloatArray, IntArray
+from pdtheory.pointset.field import DirectionField
+
+KINDS: Final[Mapping[str, tuple[Kind, ...]]] = {
+    "max": (Kind.MAXIMUM,),
+    "min": (Kind.MINIMUM,),
+    "both": (Kind.MAXIMUM, Kind.MINIMUM),
+}
+
+#: Points on a stroke, which follows the curvature of the surface.
+_STEPS: Final = 5
+#: A stroke floats so far above the surface, as a part of its length.
+_LIFT: Final = 0.06
+#: It is bent no farther than this part of its length, whatever the curvature.
+_LARGEST_BEND: Final = 0.5
+
+#: A disc reaches as far as the farthest of so many neighbours, itself among them.
+_COVERED: Final = 6
+#: A disc lies so far below its point, as a part of its radius.
+_SUNK: Final = 0.15
+
+
+class Choice(NamedTuple):
+    """What is shown of a field.
+
+    Attributes
+    ----------
+    orders : tuple of int
+        The orders that are switched on.
+    kind : {"max", "min", "both"}
+        The kinds.
+    strokes : int
+        About how many points carry strokes.
+    least_strength : float
+        Weaker directions are left out.
+    largest_uncertainty : float
+        Directions with a larger standard deviation (radians) are left out.
+    """
+
+    orders: tuple[int, ...]
+    kind: str = "max"
+    strokes: int = 800
+    least_strength: float = 0.0
+    largest_uncertainty: float = CERTAIN
+
+
+def check_choice(
+    field: DirectionField,
+    *,
+    orders: Iterable[int] | None,
+    kind: str,
+    strokes: int,
+    least_strength: float,
+    largest_uncertainty: float,
+) -> Choice:
+    """Return the choice, if it can be shown.
+
+    Raises
+    ------
+    InputError
+        If an option cannot be used or the field does not hold an order.
+    """
+    wanted = field.orders if orders is None else tuple(sorted(set(orders)))
+    for order in wanted:
+        field[order]
+    if kind not in KINDS:
+        raise InputError(f"kind is {kind!r}; give {', '.join(KINDS)}.")
+    if strokes < 1:
+        raise InputError(f"strokes is {strokes}; give at least 1.")
+    for name, value in (
+        ("least_strength", least_strength),
+        ("largest_uncertainty", largest_uncertainty),
+    ):
+        if not value >= 0.0:
+            raise InputError(f"{name} is {value}; give a number of at least 0.")
+    return Choice(wanted, kind, int(strokes), least_strength, largest_uncertainty)
+
+
+@dataclass(frozen=True)
+class Strokes:
+    """The directions of a field as they can be drawn.
+
+    Attributes
+    ----------
+    data : GlyphData
+        All directions, flat.
+    """
+
+    data: GlyphData
+
+    @classmethod
+    def of_field(cls, field: DirectionField) -> Strokes:
+        """Lay out the orders of a field.
+
+        Raises
+        ------
+        InputError
+            If the field holds no direction, or an order without a colour.
+        """
+        data = glyph_data(field)
+        if not len(data):
+            raise InputError(
+                "the field holds no directions to show; its points were not answered, or every "
+                "direction is an E-eigenvector."
+            )
+        return cls(data)
+
+    def strengths(self) -> tuple[float, float]:
+        """Return the 2 % and 98 % quantiles of the strengths that are not 0."""
+        strength = self._column("strength")
+        strength = strength[np.isfinite(strength) & (strength > 0.0)]
+        if not len(strength):
+            return 1e-6, 1.0
+        low, high = np.quantile(strength, [0.02, 0.98])
+        return float(low), float(high)
+
+    def seen(self, choice: Choice) -> npt.NDArray[np.bool_]:
+        """Return the directions that a choice shows, shape (M,).
+
+        Where several orders are switched on the points are dealt to them in turn, so that strokes
+        do not lie on top of each other.
+        """
+        keep = np.isin(self._column("kind"), [int(kind) for kind in KINDS[choice.kind]])
+        keep &= self._column("spacing") >= self.data.spots.spacing_for(choice.strokes)
+        keep &= self._column("strength") >= choice.least_strength
+        # Without error bars nothing is known against a direction.
+        keep &= ~(self._column("angle_std") > choice.largest_uncertainty)
+        if not choice.orders:
+            return np.zeros(len(self.data), dtype=bool)
+        turn = np.floor(self._column("turn") * len(choice.orders)).astype(np.int64)
+        return keep & (self._column("order") == np.array(choice.orders)[turn])
+
+    def lines(self, rows: npt.NDArray[np.bool_], choice: Choice) -> FloatArray:
+        """Return the chosen directions as polylines, shape (m, 5, 3).
+
+        Parameters
+        ----------
+        rows : (M,) bool
+            The directions.
+        choice
+            Decides the length, which is nearly half the distance between neighbours that carry
+            strokes.
+        """
+        length = REACH * self.data.spots.spacing_for(choice.strokes) or REACH * self._extent()
+        along = np.linspace(0.0, length, _STEPS)[None, :, None]
+        limit = _LARGEST_BEND / length
+        bend = np.clip(np.nan_to_num(self._column("bend")[rows]), -limit, limit)
+        direction = self._column("direction")[rows][:, None, :]
+        normal = self._column("surface_normal")[rows][:, None, :]
+        height = _LIFT * length + bend[:, None, None] * along**2
+        return self.data.position[rows][:, None, :] + along * direction + height * normal
+
+    def _column(self, name: str) -> FloatArray:
+        return np.asarray(self.data.attributes[name], dtype=np.float64)
+
+    def _extent(self) -> float:
+        span = self.data.position.max(axis=0) - self.data.position.min(axis=0)
+        return float(np.linalg.norm(span)) / 50.0 or 1.0
+
+
+def cells(lines: FloatArray) -> IntArray:
+    """Return the connectivity of polylines of shape (m, s, 3) as VTK wants it, flat."""
+    count, steps = lines.shape[:2]
+    numbers = np.arange(count * steps, dtype=np.int64).reshape(count, steps)
+    return np.column_stack([np.full(count, steps, dtype=np.int64), numbers]).ravel()
+
+
+def discs(field: DirectionField) -> tuple[FloatArray, IntArray]:
+    """Return an octagon in the tangent plane of every answered point, so that they hide the back.
+
+    Parameters
+    ----------
+    field
+        The field.
+
+    Returns
+    -------
+    points : (8 A, 3) float64
+        Corners of the octagons of the A answered points.
+    faces : (A, 8) int64
+        Octagons as indices of corners.
+    """
+    part = np.flatnonzero(field.answered)
+    centres = field.points[part]
+    near, _ = cKDTree(centres).query(centres, k=min(_COVERED, len(part)))
+    size = np.asarray(near).reshape(len(part), -1)[:, -1]
+    size = np.minimum(np.where(size > 0.0, size, 1.0), 2.0 * np.median(size))[:, None, None]
+    turn = np.arange(8) * (np.pi / 4.0)
+    circle = np.stack([np.cos(turn), np.sin(turn)], axis=1)
+    # A little below the points, or noise would bury their strokes.
+    centres = centres - _SUNK * size[:, 0] * field.frames[part, 2]
+    corners = centres[:, None, :] + size * np.einsum("ci,pij->pcj", circle, field.frames[part, :2])
+    return corners.reshape(-1, 3), np.arange(8 * len(part), dtype=np.int64).reshape(-1, 8)
