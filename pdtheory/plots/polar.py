@@ -6,9 +6,9 @@ import io
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import ceil, degrees, isfinite, pi, tau
+from math import ceil, degrees, isfinite, nan, pi, radians, tau
 from pathlib import Path
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 import numpy.typing as npt
@@ -16,6 +16,9 @@ import numpy.typing as npt
 from pdtheory.atomic import atomic_path
 from pdtheory.conventions import Kind, frequencies, order_colour
 from pdtheory.errors import InputError, MissingDependencyError
+
+if TYPE_CHECKING:
+    from pdtheory.exact.faces import Face
 
 SUFFIXES: Final = (".png", ".svg", ".pdf")
 
@@ -61,6 +64,25 @@ class PolarTerm:
     order: int
     phi: npt.ArrayLike
     directions: Sequence[tuple[float, Kind, float]] = ()
+
+    @classmethod
+    def of_face(cls, face: Face) -> PolarTerm:
+        """Return the term of an exact tensor, form or row, rounded, with its exact directions.
+
+        Parameters
+        ----------
+        face
+            A tensor, form or row with numbers for coefficients.
+        """
+        row = face.row.to_complex()
+        return cls(
+            face.order,
+            [row.get(n, 0j) for n in frequencies(face.order)],
+            [
+                (radians(float(pair.angle_degrees(17))), pair.kind, nan)
+                for pair in face.form.eigenpairs()
+            ],
+        )
 
     def values(self, theta: npt.ArrayLike) -> npt.NDArray[np.float64]:
         """Return g_k at some angles in radians, in the shape of these."""

@@ -71,6 +71,19 @@ def test_error_bars_reach_one_deviation_to_both_sides():
     assert not line(polar_figure([without]).axes[0], lambda item: len(item.get_xdata()) == 61)
 
 
+def test_exact_forms_are_drawn_with_their_exact_directions():
+    from pdtheory.exact import BinaryForm
+
+    term = PolarTerm.of_face(BinaryForm([1, 0, -3, 0]))
+    theta = np.linspace(0, 6, 9)
+    np.testing.assert_allclose(term.values(theta), np.cos(3 * theta) / 6, atol=1e-15)
+    assert [(round(np.degrees(a)), int(kind)) for a, kind, _ in term.directions] == [
+        (60 * i, 1 - 2 * (i % 2)) for i in range(6)
+    ]
+    cube = PolarTerm.of_face(BinaryForm([0, 0, 0, 1]))
+    assert [int(kind) for _, kind, _ in cube.directions] == [0, 1, 0, -1]
+
+
 def test_inflections_and_isotropic_orders_are_drawn():
     sine_cubed = PolarTerm(3, [-3j / 8, 1j / 8], [(0.0, Kind.INFLECTION, 0.0)])
     flat = PolarTerm(2, [0.0, 0.0])
