@@ -13,8 +13,9 @@ if TYPE_CHECKING:
     from pdtheory.pointset.directions import OrderDirections as OrderDirections
     from pdtheory.pointset.estimate import estimate_directions as estimate_directions
     from pdtheory.pointset.field import DirectionField as DirectionField
+    from pdtheory.pointset.parts import load_parts as load_parts
+    from pdtheory.pointset.parts import load_points as load_points
     from pdtheory.pointset.stream import estimate_to_disk as estimate_to_disk
-    from pdtheory.pointset.stream import load_parts as load_parts
 
 _HOME = {
     "DirectionField": "field",
@@ -22,7 +23,8 @@ _HOME = {
     "PointCloud": "cloud",
     "estimate_directions": "estimate",
     "estimate_to_disk": "stream",
-    "load_parts": "stream",
+    "load_parts": "parts",
+    "load_points": "parts",
 }
 __all__ = sorted(_HOME)
 

@@ -2,121 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Literal
+from typing import Unpack
 
 import numpy as np
 import numpy.typing as npt
 
-from pdtheory.conventions import DEFAULT_DEGREE, Status
+from pdtheory.conventions import Status
 from pdtheory.errors import InputError
 from pdtheory.pointset.assemble import Collector
 from pdtheory.pointset.cloud import IntArray, PointCloud
 from pdtheory.pointset.engine import Engine
 from pdtheory.pointset.field import DirectionField
-from pdtheory.pointset.intake import Intake, take_in
-from pdtheory.pointset.kernels.fit import FRAME_GIVEN, FRAME_PRINCIPAL, FRAME_TANGENT, Settings
-from pdtheory.pointset.neighbourhoods import choose, suggest_radius
-from pdtheory.pointset.pool import Progress, run_chunks, thread_count
-
-#: Largest degree of a regression.
-MAX_DEGREE = 14
-Orient = Literal["auto", "normals", "winding", "propagate", "none"]
+from pdtheory.pointset.neighbourhoods import suggest_radius
+from pdtheory.pointset.options import Options, shows_options_of
+from pdtheory.pointset.pool import run_spans, spans
+from pdtheory.pointset.prepare import prepare
 
 #: Said before the first chunk: in the first run on a machine this takes up to a minute.
 PREPARING = "preparing the kernels (compiled once)"
 #: Points in a chunk: some ten milliseconds of work, or a second of it with l1.
 CHUNK = 512
 
-_FRAMES = {"tangent": FRAME_TANGENT, "principal": FRAME_PRINCIPAL, "given": FRAME_GIVEN}
 
-
-def check_orders(orders: Sequence[int], degree: int) -> IntArray:
-    """Return the orders, ascending and once each.
-
-    Raises
-    ------
-    InputError
-        If the degree or an order is not usable.
-    """
-    if not isinstance(degree, (int, np.integer)) or not 2 <= degree <= MAX_DEGREE:
-        raise InputError(f"degree {degree!r} is not available; give one from 2 to {MAX_DEGREE}.")
-    wanted = sorted(set(orders))
-    for order in wanted:
-        if not isinstance(order, (int, np.integer)) or order < 1:
-            raise InputError(f"order {order!r} is not available; orders are 1, 2, 3, ...")
-        if order > degree:
-            raise InputError(
-                f"order {order} is above the degree {degree} of the regression; "
-                f"give degree {order} or more, or leave that order out."
-            )
-    return np.array(wanted, dtype=np.int64)
-
-
-def make_engine(
-    intake: Intake,
-    *,
-    radius: float | None,
-    neighbours: int | None,
-    radius_relative: float | None,
-    degree: int,
-    orders: IntArray,
-    norm: str,
-    frame: str,
-    weight_distance: str,
-    uncertainty: bool,
-) -> Engine:
-    """Check the remaining options and prepare the run."""
-    if norm not in ("l1", "l2"):
-        raise InputError(f"norm {norm!r} is not known; give 'l2' or 'l1'.")
-    if frame not in _FRAMES:
-        raise InputError(f"frame {frame!r} is not known; give one of {', '.join(_FRAMES)}.")
-    if weight_distance not in ("3d", "planar"):
-        raise InputError(
-            f"weight_distance {weight_distance!r} is not known; give '3d' or 'planar'."
-        )
-    if frame == "given" and not intake.planes:
-        raise InputError("frame='given' takes the planes from normals; give normals.")
-    choice = choose(radius, neighbours, radius_relative, intake.diagonal, len(intake.points))
-    if weight_distance == "planar" and choice.radius is None:
-        raise InputError("weight_distance='planar' needs a radius; neighbours cannot choose it.")
-    settings = Settings(
-        int(degree),
-        _FRAMES[frame],
-        weight_distance == "planar",
-        norm == "l1",
-        uncertainty,
-        intake.oriented,
-    )
-    return Engine(
-        intake.points,
-        intake.queries,
-        intake.references,
-        choice,
-        orders,
-        settings,
-        intake.rounding,
-    )
-
-
+@shows_options_of(prepare)
 def estimate_directions(
-    points: npt.ArrayLike | PointCloud,
-    *,
-    radius: float | None = None,
-    neighbours: int | None = None,
-    radius_relative: float | None = None,
-    degree: int = DEFAULT_DEGREE,
-    orders: Sequence[int] = (2, 3),
-    norm: Literal["l2", "l1"] = "l2",
-    normals: npt.ArrayLike | None = None,
-    queries: npt.ArrayLike | None = None,
-    orient: Orient | npt.ArrayLike = "auto",
-    frame: Literal["tangent", "principal", "given"] = "tangent",
-    weight_distance: Literal["3d", "planar"] = "3d",
-    uncertainty: bool = True,
-    non_finite: Literal["refuse", "drop"] = "refuse",
-    threads: int | None = None,
-    progress: Progress | None = None,
+    points: npt.ArrayLike | PointCloud, **options: Unpack[Options]
 ) -> DirectionField:
     """Estimate the principal directions of the surface that points were sampled from.
 
@@ -184,36 +94,22 @@ def estimate_directions(
     The height of the fitted surface over the query itself is free: phi_{0,0} is the offset of the
     query from the smoothed surface. In the tangent frame phi_{1,1} is zero.
     """
-    wanted = check_orders(orders, degree)
-    intake = take_in(points, normals, queries, non_finite, orient)
-    engine = make_engine(
-        intake,
-        radius=radius,
-        neighbours=neighbours,
-        radius_relative=radius_relative,
-        degree=degree,
-        orders=wanted,
-        norm=norm,
-        frame=frame,
-        weight_distance=weight_distance,
-        uncertainty=uncertainty,
-    )
-    workers = thread_count(threads)
-    if progress is not None:
-        progress(0.0, PREPARING)
+    run = prepare(points, **options)
+    engine = run.engine
+    if run.progress is not None:
+        run.progress(0.0, PREPARING)
     engine.warm_up()
-    collector = Collector(intake.places, int(degree), wanted)
-    chunks = run_chunks(
-        engine.work, len(intake.places), CHUNK, workers, progress, "estimating directions"
-    )
+    collector = Collector(run.places, run.degree, run.orders)
+    todo = spans(0, len(run.places), CHUNK)
+    chunks = run_spans(engine.work, todo, run.threads, run.progress, "estimating directions")
     for start, stop, (radii, output) in chunks:
         collector.add(engine.visit[start:stop], radii, output, engine.rows(stop - start))
     result = collector.field()
-    refuse_nothing(result, engine)
+    refuse_nothing(result.status, result.neighbours, engine)
     return result
 
 
-def refuse_nothing(result: DirectionField, engine: Engine) -> None:
+def refuse_nothing(status: IntArray, neighbours: IntArray, engine: Engine) -> None:
     """Raise if every point lacked neighbours.
 
     Raises
@@ -221,8 +117,8 @@ def refuse_nothing(result: DirectionField, engine: Engine) -> None:
     InputError
         With a radius that would do.
     """
-    if len(result) and np.all(result.status & Status.TOO_FEW_NEIGHBOURS):
+    if len(status) and np.all(status & Status.TOO_FEW_NEIGHBOURS):
         raise InputError(
-            f"{engine.choice.text} catches at most {int(result.neighbours.max())} points anywhere, "
+            f"{engine.choice.text} catches at most {int(neighbours.max())} points anywhere, "
             f"too few for a fit; {suggest_radius(engine.points, engine.settings.degree)}."
         )

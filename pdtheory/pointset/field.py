@@ -124,7 +124,7 @@ class DirectionField:
         columns = {
             entry.name: getattr(self, entry.name)[index]
             for entry in fields(self)
-            if entry.name not in _NOT_BY_POINT
+            if entry.name not in NOT_BY_POINT
         }
         directions = {order: rows.take(index) for order, rows in self.directions.items()}
         return replace(self, directions=directions, **columns)
@@ -283,7 +283,7 @@ class DirectionField:
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> DirectionField:
-        """Read a field written by :meth:`save`.
+        """Read a field written by :meth:`save`, or all of a run that went to a folder.
 
         Raises
         ------
@@ -292,9 +292,13 @@ class DirectionField:
         FileFormatError
             If it is not a direction field, or of a newer schema.
         """
+        if os.path.isdir(path):
+            from pdtheory.pointset.parts import load_points
+
+            return load_points(path)
         names = tuple(entry.name for entry in fields(cls) if entry.name != "directions")
         return cls(**load_npz(path, names))
 
 
 #: What does not have one row for each point.
-_NOT_BY_POINT = ("directions", "phi_order", "phi_frequency")
+NOT_BY_POINT = ("directions", "phi_order", "phi_frequency")

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 import zipfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -25,7 +27,9 @@ SCHEMA = 1
 _ORDER_ARRAYS = tuple(entry.name for entry in fields(OrderDirections) if entry.name != "order")
 
 
-def save_npz(field: DirectionField, path: str | os.PathLike[str]) -> None:
+def save_npz(
+    field: DirectionField, path: str | os.PathLike[str], **more: npt.NDArray[np.generic]
+) -> None:
     """Write a field, whole or not at all.
 
     Parameters
@@ -34,6 +38,8 @@ def save_npz(field: DirectionField, path: str | os.PathLike[str]) -> None:
         The field.
     path
         The file.
+    **more
+        Further arrays, which a reader of fields passes over.
 
     Raises
     ------
@@ -52,7 +58,7 @@ def save_npz(field: DirectionField, path: str | os.PathLike[str]) -> None:
         for name in _ORDER_ARRAYS:
             arrays[f"order{order}_{name}"] = getattr(rows, name)
     with atomic_path(path) as temporary, temporary.open("wb") as stream:
-        np.savez(stream, **arrays)
+        np.savez(stream, **arrays, **more)
 
 
 def load_npz(path: str | os.PathLike[str], names: tuple[str, ...]) -> dict[str, Any]:
@@ -78,23 +84,46 @@ def load_npz(path: str | os.PathLike[str], names: tuple[str, ...]) -> dict[str, 
         If it is not a direction field, or of a newer schema.
     """
     source = Path(path)
+    with _opened(source) as data:
+        if "schema" not in data:
+            raise FileFormatError(f"{source} is not a direction field of pdtheory.")
+        if int(data["schema"]) > SCHEMA:
+            raise FileFormatError(
+                f"{source} has schema {int(data['schema'])}; this version reads up to "
+                f"{SCHEMA}, please upgrade pdtheory."
+            )
+        directions = {
+            int(order): OrderDirections(
+                order=int(order),
+                **{name: data[f"order{order}_{name}"] for name in _ORDER_ARRAYS},
+            )
+            for order in data["orders"]
+        }
+        return {name: data[name] for name in names} | {"directions": directions}
+
+
+def read_array(path: str | os.PathLike[str], name: str) -> npt.NDArray[Any]:
+    """Read one array of a file and leave the others where they are.
+
+    Raises
+    ------
+    FileAccessError
+        If the file does not exist or cannot be read.
+    FileFormatError
+        If it holds no such array.
+    """
+    with _opened(Path(path)) as data:
+        return data[name]
+
+
+@contextmanager
+def _opened(source: Path) -> Iterator[Any]:
+    """Open an NPZ file, and say of everything that goes wrong with it what it means."""
     try:
         with np.load(source, allow_pickle=False) as data:
-            if not isinstance(data, np.lib.npyio.NpzFile) or "schema" not in data:
+            if not isinstance(data, np.lib.npyio.NpzFile):
                 raise FileFormatError(f"{source} is not a direction field of pdtheory.")
-            if int(data["schema"]) > SCHEMA:
-                raise FileFormatError(
-                    f"{source} has schema {int(data['schema'])}; this version reads up to "
-                    f"{SCHEMA}, please upgrade pdtheory."
-                )
-            directions = {
-                int(order): OrderDirections(
-                    order=int(order),
-                    **{name: data[f"order{order}_{name}"] for name in _ORDER_ARRAYS},
-                )
-                for order in data["orders"]
-            }
-            return {name: data[name] for name in names} | {"directions": directions}
+            yield data
     except FileNotFoundError as error:
         raise FileAccessError(f"no such file: {source}.") from error
     except OSError as error:

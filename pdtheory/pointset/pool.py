@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from typing import TypeVar
 
@@ -32,15 +32,19 @@ def thread_count(threads: int | None) -> int:
     return threads
 
 
-def run_chunks(
+def spans(first: int, last: int, size: int) -> list[tuple[int, int]]:
+    """Return (start, stop) of the chunks of `size` that ``range(first, last)`` falls into."""
+    return [(start, min(start + size, last)) for start in range(first, last, size)]
+
+
+def run_spans(
     work: Callable[[int, int, Flag], T],
-    total: int,
-    size: int,
+    chunks: Sequence[tuple[int, int]],
     threads: int,
     progress: Progress | None,
     text: str,
 ) -> Iterator[tuple[int, int, T]]:
-    """Yield (start, stop, work(start, stop, flag)) over chunks of ``range(total)`` as they finish.
+    """Yield (start, stop, work(start, stop, flag)) for chunks as they finish.
 
     At most three chunks for each thread are under way or waiting to be taken. If the consumer
     stops, the callback raises, or Ctrl-C is pressed, `flag[0]` becomes 1; the work must look at it
@@ -50,8 +54,8 @@ def run_chunks(
     ----------
     work
         Called in a thread.
-    total, size
-        Number of items, and items in a chunk.
+    chunks
+        Start and stop of each chunk.
     threads
         Number of threads.
     progress
@@ -60,13 +64,14 @@ def run_chunks(
         What is being done.
     """
     flag: Flag = np.zeros(1, np.uint8)
-    spans = iter([(start, min(start + size, total)) for start in range(0, total, size)])
+    total = sum(stop - start for start, stop in chunks)
+    waiting = iter(chunks)
     pending: dict[Future[T], tuple[int, int]] = {}
     done = 0
     pool = ThreadPoolExecutor(threads, thread_name_prefix="pdtheory")
     try:
         while True:
-            while len(pending) < 3 * threads and (span := next(spans, None)) is not None:
+            while len(pending) < 3 * threads and (span := next(waiting, None)) is not None:
                 pending[pool.submit(work, *span, flag)] = span
             if not pending:
                 break

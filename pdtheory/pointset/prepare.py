@@ -1,0 +1,132 @@
+"""From the user's input and options to a run that is ready to start."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from pdtheory.conventions import DEFAULT_DEGREE
+from pdtheory.errors import InputError
+from pdtheory.pointset.cloud import FloatArray, IntArray, PointCloud
+from pdtheory.pointset.engine import Engine
+from pdtheory.pointset.intake import take_in
+from pdtheory.pointset.kernels.fit import FRAME_GIVEN, FRAME_PRINCIPAL, FRAME_TANGENT, Settings
+from pdtheory.pointset.neighbourhoods import choose
+from pdtheory.pointset.options import Orient
+from pdtheory.pointset.pool import Progress, thread_count
+
+#: Largest degree of a regression.
+MAX_DEGREE = 14
+
+_FRAMES = {"tangent": FRAME_TANGENT, "principal": FRAME_PRINCIPAL, "given": FRAME_GIVEN}
+
+
+@dataclass(frozen=True)
+class Run:
+    """Input that was checked, and the engine that works on it.
+
+    Attributes
+    ----------
+    engine : Engine
+        Does the work.
+    places : (Q, 3) float64
+        The queries as given.
+    degree : int
+        Largest degree of a regression.
+    orders : (J,) int64
+        The orders, ascending.
+    threads : int
+        Threads to use.
+    progress : callable or None
+        As given.
+    """
+
+    engine: Engine
+    places: FloatArray
+    degree: int
+    orders: IntArray
+    threads: int
+    progress: Progress | None
+
+
+def prepare(
+    points: npt.ArrayLike | PointCloud,
+    *,
+    radius: float | None = None,
+    neighbours: int | None = None,
+    radius_relative: float | None = None,
+    degree: int = DEFAULT_DEGREE,
+    orders: Sequence[int] = (2, 3),
+    norm: Literal["l2", "l1"] = "l2",
+    normals: npt.ArrayLike | None = None,
+    queries: npt.ArrayLike | None = None,
+    orient: Orient | npt.ArrayLike = "auto",
+    frame: Literal["tangent", "principal", "given"] = "tangent",
+    weight_distance: Literal["3d", "planar"] = "3d",
+    uncertainty: bool = True,
+    non_finite: Literal["refuse", "drop"] = "refuse",
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> Run:
+    """Check points and options, explained at :func:`pdtheory.pointset.estimate_directions`.
+
+    Raises
+    ------
+    InputError
+        If something cannot be used.
+    """
+    wanted = _check_orders(orders, degree)
+    _check_words(norm, frame, weight_distance)
+    workers = thread_count(threads)
+    intake = take_in(points, normals, queries, non_finite, orient)
+    if frame == "given" and not intake.planes:
+        raise InputError("frame='given' takes the planes from normals; give normals.")
+    choice = choose(radius, neighbours, radius_relative, intake.diagonal, len(intake.points))
+    planar = weight_distance == "planar"
+    if planar and choice.radius is None:
+        raise InputError("weight_distance='planar' needs a radius; neighbours cannot choose it.")
+    settings = Settings(
+        int(degree), _FRAMES[frame], planar, norm == "l1", bool(uncertainty), intake.oriented
+    )
+    engine = Engine(
+        intake.points,
+        intake.queries,
+        intake.references,
+        choice,
+        wanted,
+        settings,
+        intake.rounding,
+    )
+    return Run(engine, intake.places, int(degree), wanted, workers, progress)
+
+
+def _check_orders(orders: Sequence[int], degree: int) -> IntArray:
+    """Return the orders, ascending and once each."""
+    if not isinstance(degree, (int, np.integer)) or not 2 <= degree <= MAX_DEGREE:
+        raise InputError(f"degree {degree!r} is not available; give one from 2 to {MAX_DEGREE}.")
+    wanted = sorted(set(orders))
+    for order in wanted:
+        if not isinstance(order, (int, np.integer)) or order < 1:
+            raise InputError(f"order {order!r} is not available; orders are 1, 2, 3, ...")
+        if order > degree:
+            raise InputError(
+                f"order {order} is above the degree {degree} of the regression; "
+                f"give degree {order} or more, or leave that order out."
+            )
+    return np.array(wanted, dtype=np.int64)
+
+
+def _check_words(norm: str, frame: str, weight_distance: str) -> None:
+    """Refuse words that mean nothing."""
+    if norm not in ("l1", "l2"):
+        raise InputError(f"norm {norm!r} is not known; give 'l2' or 'l1'.")
+    if frame not in _FRAMES:
+        raise InputError(f"frame {frame!r} is not known; give one of {', '.join(_FRAMES)}.")
+    if weight_distance not in ("3d", "planar"):
+        raise InputError(
+            f"weight_distance {weight_distance!r} is not known; give '3d' or 'planar'."
+        )
