@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from copy import copy
 from typing import Any
 
 import numpy as np
@@ -89,6 +90,14 @@ class Engine:
         self.queries = np.where(self._valid[:, None], queries, 0.0)
         self.references = references()
         self.visit = cell_order(self._grid, self.queries)
+
+    def at_degree(self, degree: int) -> Engine:
+        """Return an engine for the same points and neighbourhoods with another degree."""
+        other = copy(self)
+        other.settings = self.settings._replace(degree=degree)
+        other._columns = len(wavejets_table(degree))
+        other._tables = make_tables(max(degree, 4))
+        return other
 
     def rows(self, size: int) -> IntArray:
         """Return the first output row of each order for a chunk of `size` points."""
