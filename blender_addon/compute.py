@@ -5,6 +5,7 @@ from types import SimpleNamespace
 
 import bpy
 
+from pdtheory.blender.needles import needle_group
 from pdtheory.blender.proposal import propose_radius
 from pdtheory.blender.result import describe, show_result
 from pdtheory.blender.source import read_object
@@ -28,6 +29,8 @@ class Compute(ComputeSettings, JobOperator, bpy.types.Operator):
             raise InputError("no order is chosen; choose at least one.")
         thing = surface_object(context)
         source = read_source(thing, settings)
+        # Built now and not together with the result: neither step may hold up the window.
+        needle_group()
         by_radius = settings.neighbourhood == "RADIUS"
         options = {
             "radius": settings.radius if by_radius else None,

@@ -6,11 +6,10 @@ from typing import Any, Final
 
 import bpy
 import numpy as np
-import numpy.typing as npt
 
 from pdtheory.blender import compat
 from pdtheory.blender.needles import needle_group, order_material
-from pdtheory.drawing.glyphs import ORDERS, REACH, GlyphData
+from pdtheory.drawing.glyphs import ORDERS, REACH, GlyphData, single
 from pdtheory.pointset.cloud import FloatArray
 
 MODIFIER_NAME: Final = "Principal directions"
@@ -83,20 +82,11 @@ def fill_mesh(mesh: Any, data: GlyphData, origin: FloatArray | None = None) -> N
     mesh.vertices.add(len(data))
     position = data.position if origin is None else data.position - origin
     if len(data):
-        mesh.attributes["position"].data.foreach_set("vector", _flat(position, np.float32))
+        mesh.attributes["position"].data.foreach_set("vector", single(position).ravel())
     for name, values in data.attributes.items():
         whole = np.issubdtype(values.dtype, np.integer)
         kind = "FLOAT_VECTOR" if values.ndim == 2 else "INT" if whole else "FLOAT"
         attribute = mesh.attributes.get(name) or mesh.attributes.new(name, kind, "POINT")
         if len(data):
-            flat = _flat(values, np.int32 if whole else np.float32)
-            attribute.data.foreach_set(_KIND[kind], flat)
+            attribute.data.foreach_set(_KIND[kind], values.ravel())
     mesh.update()
-
-
-def _flat(values: npt.NDArray[np.generic], dtype: type) -> npt.NDArray[np.generic]:
-    """Return a contiguous flat copy in single precision; what is not finite becomes 0 or huge."""
-    if np.issubdtype(values.dtype, np.floating):
-        values = np.nan_to_num(values, nan=0.0, posinf=3e38, neginf=-3e38)
-        values = np.clip(values, -3e38, 3e38)
-    return np.ascontiguousarray(values, dtype=dtype).ravel()

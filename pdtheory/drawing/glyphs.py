@@ -21,6 +21,9 @@ ORDERS: Final = tuple(sorted(ORDER_COLOURS))
 #: Standard deviation, in radians, up to which a direction is worth drawing: 20 degrees.
 CERTAIN: Final = 0.35
 
+#: Stands for what single precision cannot hold.
+_HUGE: Final = 3e38
+
 #: A stroke reaches this part of the way to the next spot.
 REACH: Final = 0.46
 
@@ -34,7 +37,7 @@ class GlyphData:
     position : (M, 3) float64
         Where each direction stands.
     attributes : mapping of str to (M,) or (M, 3) array
-        What is drawn: `direction` and `surface_normal` (unit vectors), `order`, `kind`, `point`
+        What is drawn, in single precision and finite: `direction` and `surface_normal` (unit vectors), `order`, `kind`, `point`
         (index in the field), `eigenvalue`, `eigenvalue_std`, `strength`, `angle_std`,
         `relative_strength` (by the 90 % quantile of its order, at most 1.5), `bend` (half the
         normal curvature in the direction, 1/length), `spacing` and `turn` of the point
@@ -102,9 +105,17 @@ def glyph_data(field: DirectionField, orders: Iterable[int] | None = None) -> Gl
         put("bend", _bend(field, point, row.angle))
         put("spacing", spots.spacing[point])
         put("turn", spots.turn[point])
-    arrays = {name: np.concatenate(parts) for name, parts in columns.items()}
-    position = arrays.pop("position", np.empty((0, 3)))
-    return GlyphData(np.asarray(position, dtype=np.float64), arrays, spots)
+    position = np.concatenate(columns.pop("position", [np.empty((0, 3))]))
+    attributes = {name: single(np.concatenate(parts)) for name, parts in columns.items()}
+    return GlyphData(np.asarray(position, dtype=np.float64), attributes, spots)
+
+
+def single(values: npt.NDArray[np.generic]) -> npt.NDArray[np.generic]:
+    """Return 32-bit numbers in place of 64-bit ones; what is not finite becomes 0 or huge."""
+    if not np.issubdtype(values.dtype, np.floating):
+        return np.ascontiguousarray(values, dtype=np.int32)
+    tamed = np.nan_to_num(values, nan=0.0, posinf=_HUGE, neginf=-_HUGE)
+    return np.clip(tamed, -_HUGE, _HUGE).astype(np.float32)
 
 
 def _bend(field: DirectionField, point: npt.NDArray[np.int64], angle: FloatArray) -> FloatArray:

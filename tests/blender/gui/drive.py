@@ -236,12 +236,12 @@ def finish():
 
 def play():
     steps = globals()[f"scenario_{SCENARIO}"]()
-    last = time.monotonic()
+    due = time.monotonic()
 
     def step():
-        nonlocal last
-        now = time.monotonic()
-        report["gaps"].append(now - last)
+        nonlocal due
+        # How long after its time the main loop came to this.
+        report["gaps"].append(time.monotonic() - due)
         try:
             pause = next(steps)
         except StopIteration:
@@ -252,7 +252,7 @@ def play():
             report["error"] = traceback.format_exc()
             finish()
             return None
-        last = time.monotonic()
+        due = time.monotonic() + pause
         return pause
 
     return step
