@@ -10,9 +10,9 @@ import bpy
 import numpy as np
 
 from pdtheory.blender import compat
-from pdtheory.blender.comparison import compare_fields
 from pdtheory.blender.result import field_of, show_result, strokes_of
 from pdtheory.blender.source import read_object
+from pdtheory.comparison import compare_fields, field_of_jets
 from pdtheory.drawing.thinning import choose_spots
 from pdtheory.errors import InputError
 
@@ -72,7 +72,8 @@ class ShowExact(JobOperator, bpy.types.Operator):
         compat.set_input(modifier, "Lift", 0.15)
         scale = float(np.cbrt(abs(np.linalg.det(source.linear))))
         compat.set_input(modifier, "Length", 1.5 * compat.get_input(estimated, "Length") / scale)
-        lines = compare_fields(field_of(strokes_of(thing)), exact, source.linear)
+        found = compare_fields(field_of(strokes_of(thing)), exact, source.linear)
+        lines = [agreement.in_words() for agreement in found]
         thing.principal_directions.comparison = "\n".join(lines)
         return lines[0]
 
@@ -80,7 +81,6 @@ class ShowExact(JobOperator, bpy.types.Operator):
 def _exact_field(recipe, points, orders, report):
     """Return the field of exact directions at the distinguished points and some others."""
     import synthetic_surfaces
-    from pdtheory.blender.comparison import field_of_jets
 
     surface = synthetic_surfaces.get(recipe["name"], **recipe["parameters"])
     smooth = [site for site in surface.sites() if site.smooth]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from itertools import product
-from math import asin, degrees
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -171,18 +170,17 @@ def _compare_with_exact(console: Console, quiet: bool) -> None:
     from rich.table import Table
 
     import synthetic_surfaces
+    from pdtheory.comparison import compare_fields, field_of_jets
     from pdtheory.pointset import PointCloud, estimate_directions
 
     cloud = synthetic_surfaces.get("torus", major=MAJOR, minor=MINOR).sample(
         TORUS_SAMPLES, method="area", seed=1
     )
-    jets = _torus_jets()
-    places = np.array([[float(c) for c in jet.point] for jet in jets])
-    frames = np.stack([jet.numeric_frame() for jet in jets])
+    exact = field_of_jets(_torus_jets(), ORDERS)
     assert cloud.normals is not None
     whole = PointCloud(
-        np.concatenate([places, cloud.points]),
-        np.concatenate([frames[:, 2], cloud.normals]),
+        np.concatenate([exact.points, cloud.points]),
+        np.concatenate([exact.frames[:, 2], cloud.normals]),
         name=cloud.name,
     )
     console.print(
@@ -195,41 +193,21 @@ def _compare_with_exact(console: Console, quiet: bool) -> None:
             radius=TORUS_RADIUS,
             degree=TORUS_DEGREE,
             orders=ORDERS,
-            queries=np.arange(len(jets)),
+            queries=np.arange(len(exact)),
             progress=report,
         )
-    table = Table(title=f"Against the exact jets at {len(jets)} points")
+    table = Table(title=f"Against the exact jets at {len(exact)} points")
     for heading in ("order", "directions", "found", "median error", "largest", "lambda, median"):
         table.add_column(heading, justify="right")
-    for order in ORDERS:
-        exact, found = 0, 0
-        errors: list[float] = []
-        relative: list[float] = []
-        rows = field[order]
-        for i, (jet, frame) in enumerate(zip(jets, frames, strict=True)):
-            part = rows.at(i)
-            scale = max(abs(float(pair.eigenvalue_float(17))) for pair in jet.eigenpairs(order))
-            found += len(rows.angle[part])
-            for pair in jet.eigenpairs(order):
-                exact += 1
-                vector = np.array([float(c) for c in pair.vector]) @ frame[:2]
-                same = rows.kind[part] == int(pair.kind)
-                if not same.any():
-                    continue
-                cosines = rows.vector[part][same] @ vector
-                nearest = int(np.argmax(cosines))
-                # The chord keeps the digits that the cosine of a tiny angle loses.
-                chord = float(np.linalg.norm(rows.vector[part][same][nearest] - vector))
-                errors.append(degrees(2.0 * asin(min(1.0, chord / 2.0))))
-                value = float(pair.eigenvalue_float(17))
-                relative.append(abs(float(rows.eigenvalue[part][same][nearest]) - value) / scale)
+    for agreement in compare_fields(field, exact):
+        angle = np.degrees(agreement.angle)
         table.add_row(
-            str(order),
-            f"{exact}",
-            f"{found}",
-            f"{np.median(errors):.2g} deg",
-            f"{max(errors):.2g} deg",
-            f"{100.0 * np.median(relative):.2g} %",
+            str(agreement.order),
+            f"{len(angle)}",
+            f"{agreement.estimated}",
+            f"{np.nanmedian(angle):.2g} deg",
+            f"{np.nanmax(angle):.2g} deg",
+            f"{100.0 * np.nanmedian(agreement.eigenvalue):.2g} %",
         )
     console.print(table)
 
