@@ -35,13 +35,15 @@ _NON_FINITE = int(Status.NON_FINITE)
 class Output(NamedTuple):
     """Results of one chunk of Q points, J orders, M rows for all directions together.
 
-    Directions of order j of all points follow one another from row ``base[j]``.
+    `noise` is the standard deviation of the heights that the error bars rest on. Directions of
+    order j of all points follow one another from row ``base[j]``.
     """
 
     frames: Any
     degree: Any
     neighbours: Any
     residual: Any
+    noise: Any
     condition: Any
     status: Any
     phi: Any
@@ -63,6 +65,7 @@ def make_output(size: int, orders: Any, columns: int) -> Output:
         np.full((size, 3, 3), np.nan),
         np.zeros(size, np.int64),
         np.zeros(size, np.int64),
+        np.full(size, np.nan),
         np.full(size, np.nan),
         np.full(size, np.nan),
         np.zeros(size, np.int64),
@@ -392,6 +395,7 @@ def run_chunk(
         noise = np.nan
         if settings.uncertainty:
             noise = _prepare_uncertainty(cloud, n, fit, settings, tables, scratch)
+            out.noise[q] = noise * radius
         for j in range(len(orders)):
             if orders[j] > fit.degree:
                 continue
