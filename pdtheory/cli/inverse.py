@@ -93,7 +93,7 @@ def rounded(row: WavejetsRow) -> WavejetsRow:
     import sympy as sp
 
     from pdtheory.exact import WavejetsRow
-    from pdtheory.exact.coefficients import is_zero
+    from pdtheory.exact.zeros import is_zero
 
     def near(value: Any) -> Any:
         if value.is_Rational:

@@ -18,11 +18,13 @@ from pdtheory.exact.inverse import (
     rosy_kinds,
     rows_with_critical_lines,
 )
-from pdtheory.exact.jets import SurfaceJet, explicit_jet, implicit_jet, parametric_jet
+from pdtheory.exact.jets import explicit_jet, implicit_jet, parametric_jet
+from pdtheory.exact.named import NamedConstant
 from pdtheory.exact.prediction import ConePrediction, predict
 from pdtheory.exact.report import report
-from pdtheory.exact.series import differential_tensor, taylor_forms
 from pdtheory.exact.strata import count_bounds, count_maxima, parametric_discriminant
+from pdtheory.exact.surfacejet import SurfaceJet
+from pdtheory.exact.taylor import differential_tensor, taylor_forms
 from pdtheory.exact.tensor import SymmetricTensor
 from pdtheory.exact.wavejets import WavejetsRow
 
@@ -37,6 +39,7 @@ __all__ = [
     "EigenPairs",
     "Enclosure",
     "Face",
+    "NamedConstant",
     "RealAlgebraic",
     "Realization",
     "SurfaceJet",

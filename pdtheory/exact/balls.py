@@ -125,16 +125,16 @@ class FlintEngine:
     def __init__(self) -> None:
         import flint
 
-        self._flint = flint
+        self.library = flint
 
     def factor(self, polynomial: Integers) -> list[tuple[Integers, int]]:
         """See :class:`Engine`."""
-        _, factors = self._flint.fmpz_poly(list(polynomial)).factor()
+        _, factors = self.library.fmpz_poly(list(polynomial)).factor()
         return [(tuple(int(c) for c in p.coeffs()), int(m)) for p, m in factors]
 
     def real_roots(self, polynomial: Integers, bits: int) -> list[Enclosure]:
         """See :class:`Engine`."""
-        p = self._flint.fmpz_poly(list(polynomial))
+        p = self.library.fmpz_poly(list(polynomial))
         if p.degree() == 1:
             root = Fraction(-int(p[0]), int(p[1]))
             return [Enclosure(root, root)]
@@ -146,18 +146,18 @@ class FlintEngine:
     def complex_roots(self, polynomial: Integers, bits: int) -> list[Rectangle]:
         """See :class:`Engine`."""
         with self.precision(bits):
-            roots = [r for r, _ in self._flint.fmpz_poly(list(polynomial)).complex_roots()]
+            roots = [r for r, _ in self.library.fmpz_poly(list(polynomial)).complex_roots()]
             upper = [r for r in roots if not r.imag.is_zero() and r.imag > 0]
             return sorted(Rectangle(self.enclosure(r.real), self.enclosure(r.imag)) for r in upper)
 
     def precision(self, bits: int) -> AbstractContextManager[Any]:
         """See :class:`Engine`."""
-        return self._flint.ctx.workprec(bits)
+        return self.library.ctx.workprec(bits)
 
     def interval(self, enclosure: Enclosure) -> Any:
         """See :class:`Engine`."""
         lower, upper = (
-            self._flint.arb(self._flint.fmpq(e.numerator, e.denominator)) for e in enclosure
+            self.library.arb(self.library.fmpq(e.numerator, e.denominator)) for e in enclosure
         )
         return lower if enclosure.lower == enclosure.upper else lower.union(upper)
 
@@ -172,7 +172,7 @@ class FlintEngine:
 
     def atan_degrees(self, interval: Any) -> Any:
         """See :class:`Engine`."""
-        return interval.atan() * 180 / self._flint.arb.pi()
+        return interval.atan() * 180 / self.library.arb.pi()
 
 
 def _dyadic(value: Any) -> Fraction:
@@ -227,7 +227,10 @@ class SympyEngine:
         """See :class:`Engine`."""
         eps = self._sympy.Rational(1, 2**bits)
         _, isolated = self._poly(polynomial).intervals(all=True, eps=eps)
-        corners = [[self._sympy.sympify(c).as_real_imag() for c in pair] for pair, _ in isolated]
+        corners = [
+            [self._sympy.sympify(c, strict=True).as_real_imag() for c in pair]
+            for pair, _ in isolated
+        ]
         found = [
             Rectangle(
                 Enclosure(_fraction(a[0]), _fraction(b[0])),

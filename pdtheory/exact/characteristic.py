@@ -16,8 +16,9 @@ import sympy as sp
 from sympy.polys.matrices import DomainMatrix
 
 from pdtheory.errors import InputError
-from pdtheory.exact.coefficients import check_order, is_zero
+from pdtheory.exact.coefficients import check_order
 from pdtheory.exact.faces import Face
+from pdtheory.exact.zeros import is_zero
 
 #: The unknown of the polynomial.
 LAMBDA = sp.Symbol("lambda")

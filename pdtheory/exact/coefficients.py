@@ -1,4 +1,4 @@
-"""Coefficients: exact numbers and expressions, and when one of them is zero."""
+"""Coefficients: exact numbers and expressions, and bounds on the order."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def exact(value: Any) -> Any:
     if isinstance(value, str):
         raise InputError(f"The coefficient {value!r} is text; read it with parse_expression first.")
     try:
-        expression = sp.sympify(value)
+        expression = sp.sympify(value, strict=True)
     except (sp.SympifyError, TypeError) as error:
         raise InputError(f"The coefficient {value!r} is not a number or an expression.") from error
     if not isinstance(expression, sp.Expr):
@@ -66,23 +66,20 @@ def _float_ratio(value: Any) -> tuple[int, int]:
 
 
 def tidy(value: Any) -> Any:
-    """Return an exact expression expanded, so that equal coefficients look alike."""
-    return value if value.is_Rational else sp.expand(value)
+    """Return an exact expression expanded, so that equal coefficients look alike.
 
-
-def is_zero(value: Any) -> bool:
-    """Decide whether an exact coefficient vanishes.
-
-    Numbers clearly away from zero are told by evaluation; the rest by expansion and then by
-    simplification.
+    Denominators and roots that are sums of transcendental numbers stay as they are: their powers
+    would fill pages.
     """
     if value.is_Rational:
-        return bool(value == 0)
-    if value.is_zero is not None:
-        return bool(value.is_zero)
-    if not value.free_symbols and abs(value.evalf(20, maxn=300)) > 1e-12:
-        return False
-    expanded = sp.expand(value)
-    if expanded.is_zero is not None:
-        return bool(expanded.is_zero)
-    return bool(sp.simplify(expanded) == 0)
+        return value
+    hidden = {e: sp.Dummy() for e in value.atoms(sp.Pow) if _is_long_power(e)}
+    if not hidden:
+        return sp.expand(value)
+    back = {dummy: e for e, dummy in hidden.items()}
+    return sp.expand(value.xreplace(hidden)).xreplace(back)
+
+
+def _is_long_power(power: Any) -> bool:
+    plain = power.exp.is_Integer and power.exp > 0
+    return bool(power.base.is_Add and not plain and not power.base.is_algebraic)

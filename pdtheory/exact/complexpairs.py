@@ -17,10 +17,11 @@ import sympy as sp
 from pdtheory.errors import InputError
 from pdtheory.exact.algebraic import FIRST_BITS, bits_for, precisions, primitive
 from pdtheory.exact.balls import Integers, Rectangle, complex_roots, engine, real_roots
-from pdtheory.exact.coefficients import check_order, is_zero
+from pdtheory.exact.coefficients import check_order
 from pdtheory.exact.eigenpairs import Outcome
 from pdtheory.exact.faces import BinaryForm, Face
 from pdtheory.exact.roots import Coefficients
+from pdtheory.exact.zeros import is_zero
 
 #: tau^2 + 1, the polynomial of the isotropic directions.
 ISOTROPIC: Integers = (1, 0, 1)

@@ -26,9 +26,10 @@ from pdtheory.exact.algebraic import (
 )
 from pdtheory.exact.balls import Enclosure, Integers, engine, horner
 from pdtheory.exact.charpoly import cosine_squared_polynomial, value_polynomial
-from pdtheory.exact.coefficients import check_order, is_zero
+from pdtheory.exact.coefficients import check_order
 from pdtheory.exact.faces import BinaryForm, Face
 from pdtheory.exact.roots import Coefficients, form_roots
+from pdtheory.exact.zeros import is_zero
 
 Outcome = Literal["ok", "isotropic", "vanishing"]
 
@@ -307,7 +308,8 @@ def real_eigenpairs(face: Face) -> EigenPairs:
     Raises
     ------
     InputError
-        If the order is 0, or a coefficient is symbolic, transcendental or complex.
+        If the order is 0, or a coefficient is symbolic, complex, or transcendental other than by a
+        common factor (a form that is constant on the circle may have any).
 
     Notes
     -----
@@ -324,12 +326,13 @@ def real_eigenpairs(face: Face) -> EigenPairs:
     form = face.form
     check_order(form.order, 1)
     numbers = Coefficients(form.coefficients)
-    _ = numbers.in_generator  # refuses symbols, transcendental and complex coefficients
+    numbers.check_real_numbers()
     if face.is_zero:
         return EigenPairs(form, "vanishing", ())
     derivative = form.angular_derivative()
     if derivative.is_zero:
         return EigenPairs(form, "isotropic", ())
+    _ = numbers.in_generator  # refuses transcendental coefficients without a common factor
     # f and its derivative along the circle vanish together at the multiple zeros of f.
     zeros = {root.value for root in form_roots(form.coefficients, least_multiplicity=2)}
     half = _half_circle(derivative)

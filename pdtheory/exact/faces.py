@@ -20,7 +20,8 @@ from typing import TYPE_CHECKING, Any, Self
 import sympy as sp
 
 from pdtheory.errors import InputError
-from pdtheory.exact.coefficients import check_order, exact, is_zero, tidy
+from pdtheory.exact.coefficients import check_order, exact, tidy
+from pdtheory.exact.zeros import is_zero
 
 if TYPE_CHECKING:
     from pdtheory.exact.eigenpairs import EigenPairs

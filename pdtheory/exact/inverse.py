@@ -12,10 +12,11 @@ import sympy as sp
 
 from pdtheory.conventions import Kind
 from pdtheory.errors import InputError
-from pdtheory.exact.coefficients import check_order, exact, is_zero
+from pdtheory.exact.coefficients import check_order, exact
 from pdtheory.exact.faces import BinaryForm, Face
 from pdtheory.exact.strata import count_maxima
 from pdtheory.exact.wavejets import WavejetsRow
+from pdtheory.exact.zeros import is_zero
 
 Coefficients = list[Any]
 

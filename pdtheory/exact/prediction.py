@@ -13,10 +13,11 @@ import sympy as sp
 
 from pdtheory.conventions import DEFAULT_DEGREE, frequencies, wavejets_table
 from pdtheory.errors import InputError
-from pdtheory.exact.coefficients import exact, is_zero
+from pdtheory.exact.coefficients import exact
 from pdtheory.exact.cones import Cone, Measure, Weight, check_fit, cone_coefficient, radial_moment
 from pdtheory.exact.eigenpairs import EigenPairs, real_eigenpairs
 from pdtheory.exact.wavejets import WavejetsRow
+from pdtheory.exact.zeros import is_zero
 
 #: Decimal digits to which the transcendental coefficients are rounded.
 DIGITS = 60

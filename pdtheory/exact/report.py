@@ -14,7 +14,7 @@ from pdtheory.exact.coefficients import MAX_ORDER
 from pdtheory.exact.complexpairs import complex_eigenpairs
 from pdtheory.exact.eigenpairs import EigenPairs, real_eigenpairs
 from pdtheory.exact.faces import BinaryForm, Face
-from pdtheory.exact.series import taylor_forms
+from pdtheory.exact.taylor import taylor_forms
 
 
 def degree_bound(expression: Any, variables: Iterable[Any]) -> int | None:

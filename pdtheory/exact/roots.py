@@ -15,7 +15,7 @@ from sympy.core.evalf import PrecisionExhausted
 from pdtheory.errors import ComputationError, InputError
 from pdtheory.exact.algebraic import FIRST_BITS, RealAlgebraic, precisions, primitive
 from pdtheory.exact.balls import Enclosure, engine, horner, real_roots
-from pdtheory.exact.coefficients import is_zero
+from pdtheory.exact.zeros import is_zero
 
 _T = sp.Symbol("t")
 
@@ -42,11 +42,8 @@ class Coefficients:
 
     expressions: tuple[Any, ...]
 
-    @cached_property
-    def factor(self) -> Any:
-        """The common factor, positive."""
-        if all(e.is_algebraic for e in self.expressions):
-            return sp.Integer(1)
+    def check_real_numbers(self) -> None:
+        """Refuse coefficients with free symbols and those that are not real."""
         for e in self.expressions:
             if e.free_symbols:
                 names = ", ".join(sorted(str(s) for s in e.free_symbols))
@@ -55,6 +52,13 @@ class Coefficients:
                 )
             if e.is_real is False:
                 raise InputError(f"The coefficient {e} is not real; the form must be real.")
+
+    @cached_property
+    def factor(self) -> Any:
+        """The common factor, positive."""
+        if all(e.is_algebraic for e in self.expressions):
+            return sp.Integer(1)
+        self.check_real_numbers()
         lead = next(e for e in self.expressions if not is_zero(e))
         return lead if sp.N(lead, 30) > 0 else -lead
 

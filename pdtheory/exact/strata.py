@@ -16,7 +16,7 @@ import sympy as sp
 
 from pdtheory.errors import InputError
 from pdtheory.exact.characteristic import sylvester_resultant
-from pdtheory.exact.coefficients import check_order
+from pdtheory.exact.coefficients import check_order, exact
 from pdtheory.exact.faces import Face
 from pdtheory.exact.roots import Coefficients
 from pdtheory.exact.wavejets import WavejetsRow
@@ -147,20 +147,20 @@ def hypocycloid(low: int, high: int, parameter: Any) -> Any:
         The parameter t, exact or symbolic.
     """
     _check_frequencies(low, high)
-    p, q, t = sp.Integer(low), sp.Integer(high), sp.sympify(parameter)
+    p, q, t = sp.Integer(low), sp.Integer(high), exact(parameter)
     wave = (q + p) * sp.exp(sp.I * (q - p) * t) + (q - p) * sp.exp(-sp.I * (q + p) * t)
     return -q / (2 * p**2) * wave
 
 
 def deltoid(parameter: Any) -> Any:
     """Return phi_1 = -3 (2 e^{is} + e^{-2is}): the boundary for order 3 with phi_3 = 1."""
-    s = sp.sympify(parameter)
+    s = exact(parameter)
     return -3 * (2 * sp.exp(sp.I * s) + sp.exp(-2 * sp.I * s))
 
 
 def astroid(parameter: Any) -> Any:
     """Return phi_2 = -4 (cos^3 s + i sin^3 s): the boundary for order 4 with phi_4 = 1."""
-    s = sp.sympify(parameter)
+    s = exact(parameter)
     return -4 * (sp.cos(s) ** 3 + sp.I * sp.sin(s) ** 3)
 
 

@@ -11,8 +11,9 @@ import numpy as np
 import sympy as sp
 
 from pdtheory.errors import InputError
-from pdtheory.exact.coefficients import check_order, exact, is_zero, tidy
+from pdtheory.exact.coefficients import check_order, exact, tidy
 from pdtheory.exact.faces import BinaryForm, Face
+from pdtheory.exact.zeros import is_zero
 
 
 class SymmetricTensor(Face):

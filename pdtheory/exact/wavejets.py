@@ -11,8 +11,10 @@ import sympy as sp
 
 from pdtheory.conventions import frequencies
 from pdtheory.errors import InputError
-from pdtheory.exact.coefficients import check_order, exact, is_zero, tidy
+from pdtheory.exact.coefficients import check_order, exact, tidy
+from pdtheory.exact.enclosing import nearest_double
 from pdtheory.exact.faces import BinaryForm, Face
+from pdtheory.exact.zeros import is_zero
 
 
 @lru_cache(maxsize=64)
@@ -150,7 +152,9 @@ class WavejetsRow(Face):
 
     def to_complex(self) -> dict[int, complex]:
         """Return the coefficients as Python complex numbers."""
-        return {n: complex(float(a), float(b)) for n, (a, b) in self.parts.items()}
+        return {
+            n: complex(nearest_double(a), nearest_double(b)) for n, (a, b) in self.parts.items()
+        }
 
     def __repr__(self) -> str:
         return f"WavejetsRow(order={self.order}, {self.phi})"

@@ -6,7 +6,7 @@ import pytest
 import sympy as sp
 
 from pdtheory.conventions import wavejets_table
-from pdtheory.errors import ComputationError, ExpressionError, InputError
+from pdtheory.errors import ExpressionError, InputError
 from pdtheory.exact import explicit_jet, implicit_jet, parametric_jet
 
 x, y, z, u, v = sp.symbols("x y z u v")
@@ -227,9 +227,3 @@ def test_numeric_tables():
 def test_bad_input(make, error, message):
     with pytest.raises(error, match=message):
         make()
-
-
-def test_constants_too_long_to_divide_are_refused_at_once():
-    f = sp.exp(-16 * y**2) + sp.exp(-16 * x**2) * sp.tanh(4 * y)
-    with pytest.raises(ComputationError, match="shorter fractions"):
-        explicit_jet(f, (x, y), 2, (sp.Rational(1234, 10000), sp.Rational(1, 4)))

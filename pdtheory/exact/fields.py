@@ -1,0 +1,154 @@
+"""The coefficients of power series: one field where its arithmetic is exact, else one ring.
+
+Algebraic numbers and free parameters form a field Q(a)(p, q, ...) in which SymPy adds, multiplies
+and divides in a normal form; so does one transcendental number beside them. Several such numbers
+may depend on each other, as cosh(1) and sinh(1) do, and a division would not see it. They become
+the variables of a polynomial ring, in which only sums and products are taken: those are right
+whatever the relations between the numbers are. What vanishes is decided afterwards (`zeros`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from functools import reduce
+from math import factorial
+from operator import mul
+from typing import Any
+
+import sympy as sp
+from sympy.polys.rings import ring
+
+from pdtheory.exact.coefficients import tidy
+from pdtheory.exact.faces import BinaryForm
+from pdtheory.exact.powerseries import Series
+from pdtheory.exact.zeros import is_zero
+
+
+class Field:
+    """The coefficients, with the ring of polynomials in some variables over them.
+
+    Parameters
+    ----------
+    constants
+        SymPy expressions that must be among the coefficients.
+    variables
+        Names of the variables of the polynomials, separated by commas.
+
+    Attributes
+    ----------
+    divides : bool
+        True if the coefficients form a field, so that they may be divided.
+    """
+
+    def __init__(self, constants: Iterable[Any], variables: str = "x,y") -> None:
+        listed = [*dict.fromkeys([sp.Integer(1), *constants])]
+        atoms = _atoms(listed, into_quotients=True)
+        numbers = [a for a in atoms if not a.is_Symbol]
+        self.divides = len(numbers) <= 1 and all(
+            not a.free_symbols and a.is_algebraic is False for a in numbers
+        )
+        if not self.divides:
+            atoms = _atoms(listed, into_quotients=False)
+        self._names = {a: a if a.is_Symbol else sp.Dummy() for a in atoms}
+        self._meaning = {name: a for a, name in self._names.items()}
+        if self.divides:
+            hidden = [c.xreplace(self._names) for c in listed]
+            self.domain, elements = sp.construct_domain(hidden, extension=True, field=True)
+            self._known = dict(zip(listed, elements, strict=True))
+        else:
+            numbers = [*_algebraic_parts(listed), sp.Integer(1)]
+            ground, elements = sp.construct_domain(numbers, extension=True, field=True)
+            self.domain = ground.poly_ring(*self._names.values())
+            self._known = {
+                c: self.domain.convert_from(e, ground)
+                for c, e in zip(numbers, elements, strict=True)
+            }
+            self._known.update(zip(self._names, self.domain.gens, strict=True))
+        self.ring, *self.variables = ring(variables, self.domain)
+
+    def element(self, constant: Any) -> Any:
+        """Return a constant as a coefficient."""
+        constant = sp.sympify(constant, strict=True)
+        if constant not in self._known:
+            self._known[constant] = (
+                self.domain.from_sympy(constant.xreplace(self._names))
+                if self.divides
+                else self._composed(constant)
+            )
+        return self._known[constant]
+
+    def _composed(self, constant: Any) -> Any:
+        if constant.is_Rational:
+            return self.domain.convert(sp.QQ(int(constant.p), int(constant.q)), sp.QQ)
+        if constant.is_Pow:
+            return self.element(constant.base) ** int(constant.exp)
+        parts = [self.element(a) for a in constant.args]
+        return sum(parts, self.domain.zero) if constant.is_Add else reduce(mul, parts)
+
+    def expression(self, element: Any) -> Any:
+        """Return a coefficient as a SymPy expression; 0 if it vanishes."""
+        value = tidy(self.domain.to_sympy(element).xreplace(self._meaning))
+        return sp.Integer(0) if is_zero(value) else value
+
+    def series(self, degree: int, *terms: Any) -> Series:
+        """Return the series with these first parts, elements of the ring or of its ground."""
+        parts = [self.ring(t) for t in terms[: degree + 1]]
+        return Series((*parts, *([self.ring.zero] * (degree + 1 - len(parts)))))
+
+    def linear(self, coefficients: Sequence[Any]) -> Any:
+        """Return the sum of coefficients times the first variables of the ring."""
+        pairs = zip(self.variables, coefficients, strict=False)
+        return sum((w * self.element(c) for w, c in pairs), self.ring.zero)
+
+    def forms(self, series: Series) -> list[BinaryForm]:
+        """Return T_k v^k = k! times the homogeneous part, for k = 0 to K."""
+        result = []
+        for k, term in enumerate(series.terms):
+            coefficients = [sp.Integer(0)] * (k + 1)
+            for (_, j), c in term.terms():
+                coefficients[j] = factorial(k) * self.expression(c)
+            result.append(BinaryForm(coefficients))
+        return result
+
+
+def _atoms(constants: Iterable[Any], *, into_quotients: bool) -> list[Any]:
+    """Return what the constants are made of besides algebraic numbers, + * and powers."""
+    found: dict[Any, None] = {}
+
+    def walk(node: Any) -> None:
+        if _is_algebraic(node):
+            return
+        whole = node.is_Pow and node.exp.is_Integer and (into_quotients or node.exp > 0)
+        if node.is_Add or node.is_Mul:
+            for part in node.args:
+                walk(part)
+        elif whole:
+            walk(node.base)
+        else:
+            found[node] = None
+
+    for constant in constants:
+        walk(constant)
+    return [*found]
+
+
+def _algebraic_parts(constants: Iterable[Any]) -> list[Any]:
+    """Return the algebraic numbers in sums, products and positive powers."""
+    found: dict[Any, None] = {}
+
+    def walk(node: Any) -> None:
+        if _is_algebraic(node):
+            found[node] = None
+        elif node.is_Add or node.is_Mul:
+            for part in node.args:
+                walk(part)
+        elif node.is_Pow and node.exp.is_Integer and node.exp > 0:
+            walk(node.base)
+
+    for constant in constants:
+        walk(constant)
+    return [*found]
+
+
+def _is_algebraic(node: Any) -> bool:
+    return bool(node.is_Rational or (not node.free_symbols and node.is_algebraic))
