@@ -8,17 +8,15 @@ import numpy as np
 
 from pdtheory.conventions import wavejets_table
 from pdtheory.pointset.cloud import FloatArray, IntArray
-from pdtheory.pointset.directions import OrderDirections
+from pdtheory.pointset.directions import ROW_ARRAYS, OrderDirections
 from pdtheory.pointset.field import DirectionField
 from pdtheory.pointset.kernels.chunk import Output
-
-_ROWS = ("angle", "vector", "eigenvalue", "strength", "kind", "angle_std", "eigenvalue_std")
 
 
 def order_rows(output: Output, base: IntArray, j: int) -> dict[str, Any]:
     """Return copies of the rows of order number j of one chunk, by name."""
     rows = slice(int(base[j]), int(base[j] + output.counts[j].sum()))
-    return {name: getattr(output, name)[rows].copy() for name in _ROWS}
+    return {name: getattr(output, name)[rows].copy() for name in ROW_ARRAYS}
 
 
 class Collector:
@@ -79,13 +77,13 @@ class Collector:
                     (total, 3) if name == "vector" else total,
                     np.int8 if name == "kind" else np.float64,
                 )
-                for name in _ROWS
+                for name in ROW_ARRAYS
             }
             for where, rows in self._chunks:
                 counts = self._counts[j, where]
                 first = np.cumsum(counts) - counts
                 target = np.repeat(offsets[where] - first, counts) + np.arange(int(counts.sum()))
-                for name in _ROWS:
+                for name in ROW_ARRAYS:
                     arrays[name][target] = rows[j][name]
             directions[int(order)] = OrderDirections(
                 order=int(order), offsets=offsets, isotropic=self._isotropic[j], **arrays

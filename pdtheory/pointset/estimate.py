@@ -17,6 +17,7 @@ from pdtheory.pointset.neighbourhoods import suggest_radius
 from pdtheory.pointset.options import Options, shows_options_of
 from pdtheory.pointset.pool import run_spans, spans
 from pdtheory.pointset.prepare import prepare
+from pdtheory.pointset.selection import Selector
 
 #: Said before the first chunk: in the first run on a machine this takes up to a minute.
 PREPARING = "preparing the kernels (compiled once)"
@@ -39,14 +40,17 @@ def estimate_directions(
     ----------
     points : (P, 3) array_like or PointCloud
         The samples.
-    radius : float
-        Radius R of the neighbourhoods, in the units of the points.
+    radius : float, sequence of float, or "auto"
+        Radius R of the neighbourhoods, in the units of the points. Of several, each point takes the
+        one whose error is smallest as far as the data tell; "auto" tries radii at which half of the
+        points have 1.5, 4.5, 13.5, ... neighbours for each coefficient, up to 1,000.
     neighbours : int
         Number of nearest points, the point itself among them, whose farthest gives the radius.
     radius_relative : float
         Radius as a fraction of the diagonal of the bounding box. Give exactly one of the three.
-    degree : int
-        Degree K of the regression, 2 to 14.
+    degree : int or "auto"
+        Degree K of the regression, 2 to 14. With "auto" each point takes one of every second degree
+        from the highest order up to 10 in the same way; ``field.degree`` says which.
     orders : sequence of int
         Orders k of the directions, none above the degree.
     norm : {"l2", "l1"}
@@ -67,7 +71,8 @@ def estimate_directions(
         Distance that the weights depend on: in space, which depends on no plane and is the default,
         or in the local plane.
     uncertainty : bool
-        Whether to compute standard deviations of angles and eigenvalues; NaN otherwise.
+        Whether to compute standard deviations of angles and eigenvalues; NaN otherwise. A choice of
+        degree or radius needs them and computes them in any case.
     non_finite : {"refuse", "drop"}
         What to do about points with NaN or infinite coordinates: raise, or leave them out, with the
         status ``NON_FINITE`` where they are queries.
@@ -93,6 +98,10 @@ def estimate_directions(
     -----
     The height of the fitted surface over the query itself is free: phi_{0,0} is the offset of the
     query from the smoothed surface. In the tangent frame phi_{1,1} is zero.
+
+    Degree and radius are chosen by comparing each candidate with those of less bias
+    (:mod:`pdtheory.pointset.selection`), for all orders asked for together: where each order shall
+    have its own best degree, estimate them one by one.
     """
     run = prepare(points, **options)
     engine = run.engine
@@ -109,7 +118,7 @@ def estimate_directions(
     return result
 
 
-def refuse_nothing(status: IntArray, neighbours: IntArray, engine: Engine) -> None:
+def refuse_nothing(status: IntArray, neighbours: IntArray, engine: Engine | Selector) -> None:
     """Raise if every point lacked neighbours.
 
     Raises

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -12,6 +13,8 @@ from pdtheory.pointset.cloud import FloatArray
 
 #: Most neighbours of one point.
 MAX_NEIGHBOURS = 100_000
+#: Most neighbours, at half of the points, within a radius that is tried unasked.
+AUTO_NEIGHBOURS = 1_000
 
 
 class Choice(NamedTuple):
@@ -29,9 +32,9 @@ class Choice(NamedTuple):
 
 
 def choose(
-    radius: float | None,
-    neighbours: int | None,
-    radius_relative: float | None,
+    radius: Any,
+    neighbours: Any,
+    radius_relative: Any,
     diagonal: float,
     count: int,
 ) -> Choice:
@@ -79,6 +82,47 @@ def choose(
     return Choice(float(size) * diagonal, None)
 
 
+def choose_radii(
+    radius: float | str | Sequence[float],
+    points: FloatArray,
+    diagonal: float,
+    degree: int,
+) -> list[Choice]:
+    """Return the radii to choose from at each point, largest first; one if one is given.
+
+    Parameters
+    ----------
+    radius
+        A number, several, or "auto" for radii at which half of the points have 1.5, 4.5, 13.5, ...
+        neighbours for each coefficient, up to 1,000 neighbours.
+    points : (P, 3) float64
+        Finite points.
+    diagonal : float
+        Diagonal of their bounding box.
+    degree : int
+        The degree that the neighbours are to bear.
+
+    Raises
+    ------
+    InputError
+        If they cannot be used.
+    """
+    if isinstance(radius, str):
+        if radius != "auto":
+            raise InputError(f"radius must be a number or 'auto', not {radius!r}.")
+        size = (degree + 1) * (degree + 2) // 2
+        wanted = [int(1.5 * size)]
+        while 3 * wanted[-1] <= min(AUTO_NEIGHBOURS, len(points)):
+            wanted.append(3 * wanted[-1])
+        radii = _median_radii(points, [min(count, len(points)) for count in wanted])
+    else:
+        radii = list(radius) if isinstance(radius, Iterable) else [radius]
+    if not radii:
+        raise InputError("no radius is given; give at least one.")
+    given = [choose(value, None, None, diagonal, len(points)) for value in radii]
+    return sorted(set(given), key=lambda choice: -(choice.radius or 0.0))
+
+
 def refuse_crowd(occupancy: int, choice: Choice) -> None:
     """Refuse a radius that catches more points than can be worked on.
 
@@ -105,9 +149,15 @@ def nearest(tree: Any, queries: FloatArray, count: int) -> tuple[FloatArray, Any
     return distances[:, -1], np.ascontiguousarray(indices, dtype=np.int64)
 
 
+def _median_radii(points: FloatArray, counts: Sequence[int]) -> list[float]:
+    """Return the radii that hold so many points at half of the points, from a sample of these."""
+    sample = points[:: max(1, len(points) // 1000)]
+    distances, _ = cKDTree(points).query(sample, k=list(counts))
+    return [float(value) for value in np.median(distances, axis=0)]
+
+
 def suggest_radius(points: FloatArray, degree: int) -> str:
     """Return advice in words: a radius that holds twice the coefficients at half of the points."""
     wanted = min((degree + 1) * (degree + 2), len(points))
-    sample = points[:: max(1, len(points) // 1000)]
-    distances, _ = nearest(cKDTree(points), sample, wanted)
-    return f"a radius of {float(np.median(distances)):.3g} holds {wanted} points at half of them"
+    (radius,) = _median_radii(points, [wanted])
+    return f"a radius of {radius:.3g} holds {wanted} points at half of them"

@@ -20,10 +20,10 @@ class Options(TypedDict, total=False):
     Their defaults stand in :func:`pdtheory.pointset.prepare.prepare`.
     """
 
-    radius: float | None
+    radius: float | Sequence[float] | Literal["auto"] | None
     neighbours: int | None
     radius_relative: float | None
-    degree: int
+    degree: int | Literal["auto"]
     orders: Sequence[int]
     norm: Literal["l2", "l1"]
     normals: npt.ArrayLike | None

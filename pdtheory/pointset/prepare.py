@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Literal
 
 import numpy as np
@@ -15,9 +16,10 @@ from pdtheory.pointset.cloud import FloatArray, IntArray, PointCloud
 from pdtheory.pointset.engine import Engine
 from pdtheory.pointset.intake import take_in
 from pdtheory.pointset.kernels.fit import FRAME_GIVEN, FRAME_PRINCIPAL, FRAME_TANGENT, Settings
-from pdtheory.pointset.neighbourhoods import choose
+from pdtheory.pointset.neighbourhoods import choose, choose_radii
 from pdtheory.pointset.options import Orient
 from pdtheory.pointset.pool import Progress, thread_count
+from pdtheory.pointset.selection import Selector, candidate_degrees
 
 #: Largest degree of a regression.
 MAX_DEGREE = 14
@@ -31,7 +33,7 @@ class Run:
 
     Attributes
     ----------
-    engine : Engine
+    engine : Engine or Selector
         Does the work.
     places : (Q, 3) float64
         The queries as given.
@@ -39,16 +41,19 @@ class Run:
         Largest degree of a regression.
     orders : (J,) int64
         The orders, ascending.
+    asked : str
+        All that the results depend on beside points, queries, sides and orders.
     threads : int
         Threads to use.
     progress : callable or None
         As given.
     """
 
-    engine: Engine
+    engine: Engine | Selector
     places: FloatArray
     degree: int
     orders: IntArray
+    asked: str
     threads: int
     progress: Progress | None
 
@@ -56,10 +61,10 @@ class Run:
 def prepare(
     points: npt.ArrayLike | PointCloud,
     *,
-    radius: float | None = None,
+    radius: float | Sequence[float] | Literal["auto"] | None = None,
     neighbours: int | None = None,
     radius_relative: float | None = None,
-    degree: int = DEFAULT_DEGREE,
+    degree: int | Literal["auto"] = DEFAULT_DEGREE,
     orders: Sequence[int] = (2, 3),
     norm: Literal["l2", "l1"] = "l2",
     normals: npt.ArrayLike | None = None,
@@ -79,29 +84,63 @@ def prepare(
     InputError
         If something cannot be used.
     """
-    wanted = _check_orders(orders, degree)
+    wanted = _check_orders(orders, MAX_DEGREE if isinstance(degree, str) else degree)
+    degrees = _degrees(degree, wanted)
     _check_words(norm, frame, weight_distance)
     workers = thread_count(threads)
     intake = take_in(points, normals, queries, non_finite, orient)
     if frame == "given" and not intake.planes:
         raise InputError("frame='given' takes the planes from normals; give normals.")
-    choice = choose(radius, neighbours, radius_relative, intake.diagonal, len(intake.points))
     planar = weight_distance == "planar"
-    if planar and choice.radius is None:
+    if planar and neighbours is not None:
         raise InputError("weight_distance='planar' needs a radius; neighbours cannot choose it.")
+    if radius is None or neighbours is not None or radius_relative is not None:
+        choices = [choose(radius, neighbours, radius_relative, intake.diagonal, len(intake.points))]
+    else:
+        bearing = degrees[0] if len(degrees) == 1 else degrees[0] + 2
+        choices = choose_radii(radius, intake.points, intake.diagonal, bearing)
+    several = len(choices) * len(degrees) > 1
     settings = Settings(
-        int(degree), _FRAMES[frame], planar, norm == "l1", bool(uncertainty), intake.oriented
+        degrees[-1],
+        _FRAMES[frame],
+        planar,
+        norm == "l1",
+        bool(uncertainty) or several,
+        intake.oriented,
     )
-    engine = Engine(
-        intake.points,
-        intake.queries,
-        intake.references,
-        choice,
-        wanted,
-        settings,
-        intake.rounding,
-    )
-    return Run(engine, intake.places, int(degree), wanted, workers, progress)
+    engines: list[Engine] = []
+    for choice in choices:
+        sides = intake.references if not engines else partial(getattr, engines[0], "references")
+        engines.append(
+            Engine(
+                intake.points,
+                intake.queries,
+                sides,
+                choice,
+                wanted,
+                settings,
+                intake.rounding,
+            )
+        )
+    engine: Engine | Selector = engines[0]
+    if several:
+        above = degrees[-1] + 2
+        engine = Selector(
+            [e.at_degree(degree) for degree in degrees for e in engines],
+            # Of several degrees, the higher are witnesses themselves.
+            [e.at_degree(above) for e in engines if len(degrees) == 1 and above <= MAX_DEGREE],
+        )
+    asked = repr((choices, degrees, tuple(settings)))
+    return Run(engine, intake.places, degrees[-1], wanted, asked, workers, progress)
+
+
+def _degrees(degree: int | str, orders: IntArray) -> list[int]:
+    """Return the degrees to choose from, ascending."""
+    if not isinstance(degree, str):
+        return [int(degree)]
+    if degree != "auto":
+        raise InputError(f"degree must be a number or 'auto', not {degree!r}.")
+    return candidate_degrees(orders, MAX_DEGREE)
 
 
 def _check_orders(orders: Sequence[int], degree: int) -> IntArray:

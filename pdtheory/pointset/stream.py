@@ -133,5 +133,5 @@ def _digest(run: Run) -> str:
     for array in (engine.points, engine.queries, engine.references, engine.orders):
         digest.update(repr((array.shape, array.dtype.str)).encode())
         digest.update(np.ascontiguousarray(array).data)
-    digest.update(repr((tuple(engine.choice), tuple(engine.settings), PART)).encode())
+    digest.update(repr((run.asked, PART)).encode())
     return digest.hexdigest()
