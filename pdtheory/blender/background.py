@@ -15,7 +15,7 @@ T = TypeVar("T")
 Report = Callable[[float, str], None]
 
 #: How much less urgent than the window the work is, in steps of `nice`.
-_NICE: Final = 10
+_NICE: Final = 5
 
 
 class Job(Generic[T]):
