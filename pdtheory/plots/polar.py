@@ -27,7 +27,7 @@ _COLUMNS: Final = 5
 #: Inches of a panel.
 _PANEL: Final = 2.4
 #: Inches above it for what it shows.
-_HEADING: Final = 0.22
+_HEADING: Final = 0.3
 #: g_k = 0 lies on the circle of radius 1, its largest modulus so far from it.
 _AMPLITUDE: Final = 0.55
 #: Radii at which the error bars of maxima and of all else lie, beyond the largest maximum.
@@ -92,7 +92,7 @@ class PolarTerm:
         return np.real(np.exp(1j * turns) @ (weight * phi))
 
 
-def polar_figure(terms: Sequence[PolarTerm], *, title: str = "") -> Any:
+def polar_figure(terms: Sequence[PolarTerm], *, title: str = "", figure: Any | None = None) -> Any:
     """Draw the terms side by side as r = 1 + c g_k(theta), each to its own scale.
 
     The dashed circle is g_k = 0: maxima bulge out, minima go in. A thick ray ends in a maximum, a
@@ -105,11 +105,14 @@ def polar_figure(terms: Sequence[PolarTerm], *, title: str = "") -> Any:
         The terms, in the order of the panels.
     title
         Text above all panels.
+    figure : matplotlib.figure.Figure, optional
+        An empty figure to draw into, which gets the size of the panels, such as ``plt.figure()``;
+        one that belongs to no window by default.
 
     Returns
     -------
     matplotlib.figure.Figure
-        A figure that belongs to no window.
+        The figure.
 
     Raises
     ------
@@ -129,7 +132,9 @@ def polar_figure(terms: Sequence[PolarTerm], *, title: str = "") -> Any:
     margin = 0.35 if title else 0.0
     with rc_context(_STYLE):
         width, height = columns * _PANEL, rows * (_PANEL + _HEADING) + margin
-        figure = figure_class(figsize=(width, height), facecolor="white")
+        if figure is None:
+            figure = figure_class(facecolor="white")
+        figure.set_size_inches(width, height)
         for i, term in enumerate(terms):
             left = (i % columns) * _PANEL
             bottom = height - margin - (i // columns + 1) * (_PANEL + _HEADING)

@@ -135,6 +135,16 @@ def test_bad_input_is_refused(tmp_path, monkeypatch):
         polar_figure([MONKEY])
 
 
+def test_a_figure_of_pyplot_can_be_drawn_into():
+    import matplotlib.pyplot as plt
+
+    figure = plt.figure()
+    assert polar_figure([MONKEY] * 2, figure=figure) is figure
+    assert len(figure.axes) == 2
+    assert figure.get_size_inches()[0] == pytest.approx(4.8)
+    plt.close(figure)
+
+
 def test_no_window_and_no_global_state():
     import matplotlib
 
