@@ -51,7 +51,7 @@ def _realize(order: int, angles: list[Any], digits: int, as_json: bool) -> None:
     from pdtheory.exact.report import order_report
 
     found = realize_maxima(order, angles)
-    near = None if found.row is None else rounded(found.row)
+    near = None if found.row is None else round_row(found.row)
     pairs = None if near is None else near.eigenpairs()
     if as_json:
         data: dict[str, Any] = {"realizable": found.is_realizable, "reason": found.reason}
@@ -88,17 +88,16 @@ def _family(order: int, angles: list[Any], digits: int, as_json: bool) -> None:
         typer.echo(f"{i}: {values}")
 
 
-def rounded(row: WavejetsRow) -> WavejetsRow:
+def round_row(row: WavejetsRow) -> WavejetsRow:
     """Return a row with its irrational coefficients rounded to 60 digits, zeros kept."""
     import sympy as sp
 
     from pdtheory.exact import WavejetsRow
+    from pdtheory.exact.enclosing import rounded
     from pdtheory.exact.zeros import is_zero
 
     def near(value: Any) -> Any:
-        if value.is_Rational:
-            return value
-        return sp.Integer(0) if is_zero(value) else sp.Rational(str(sp.N(value, CHECK_DIGITS)))
+        return sp.Integer(0) if is_zero(value) else rounded(value, CHECK_DIGITS)
 
     return WavejetsRow(row.order, {n: near(a) + sp.I * near(b) for n, (a, b) in row.parts.items()})
 

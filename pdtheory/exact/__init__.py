@@ -8,7 +8,7 @@ from pdtheory.exact.characteristic import (
     is_irregular,
 )
 from pdtheory.exact.complexpairs import ComplexEigenPair, ComplexEigenPairs, complex_eigenpairs
-from pdtheory.exact.cones import Cone, cone_coefficient, radial_moment
+from pdtheory.exact.cones import Cone
 from pdtheory.exact.eigenpairs import EigenPair, EigenPairs, real_eigenpairs
 from pdtheory.exact.expression import parse_expression
 from pdtheory.exact.faces import BinaryForm, Face
@@ -19,6 +19,7 @@ from pdtheory.exact.inverse import (
     rows_with_critical_lines,
 )
 from pdtheory.exact.jets import explicit_jet, implicit_jet, parametric_jet
+from pdtheory.exact.moments import cone_coefficient, radial_moment
 from pdtheory.exact.named import NamedConstant
 from pdtheory.exact.prediction import ConePrediction, predict
 from pdtheory.exact.report import report

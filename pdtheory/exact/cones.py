@@ -8,22 +8,20 @@ converges to these numbers as the density of the samples grows.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
 from itertools import pairwise
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 import sympy as sp
 
-from pdtheory.conventions import DEFAULT_DEGREE, SIGMA_RATIO
 from pdtheory.errors import InputError
 from pdtheory.exact.coefficients import exact
 
-Weight = Literal["gaussian", "uniform"]
-Measure = Literal["flat", "surface"]
-
-_Q, _E = sp.symbols("q E", positive=True)
+#: Cosine and sine of an angle in degrees.
+CosSin = Callable[[Any], tuple[Any, Any]]
 
 
 @dataclass(frozen=True)
@@ -99,30 +97,48 @@ class Cone:
     @cached_property
     def gradients(self) -> list[tuple[Any, Any]]:
         """The gradient (a, b) of z = a x + b y in the sector after each ray."""
+        return [(_tidy(p), _tidy(q)) for p, q in self._gradients(_cos_sin)]
+
+    def _gradients(self, cos_sin: CosSin) -> list[tuple[Any, Any]]:
         result = []
         for (angle, slope), (following, end) in pairwise([*self.rays, self.rays[0]]):
-            c, s, c1, s1 = (
-                f(sp.pi * a / 180) for a in (angle, following) for f in (sp.cos, sp.sin)
-            )
+            (c, s), (c1, s1) = cos_sin(angle), cos_sin(following)
             determinant = c * s1 - s * c1
             result.append(
-                (
-                    _tidy((slope * s1 - end * s) / determinant),
-                    _tidy((end * c - slope * c1) / determinant),
-                )
+                ((slope * s1 - end * s) / determinant, (end * c - slope * c1) / determinant)
             )
         return result
 
     @cached_property
     def jumps(self) -> list[Any]:
         """The jump of h' at each ray: negative at a crest, positive at a valley."""
+        return [_tidy(jump) for jump in self._jumps(_cos_sin)]
+
+    def _jumps(self, cos_sin: CosSin) -> list[Any]:
+        gradients = self.gradients if cos_sin is _cos_sin else self._gradients(cos_sin)
         result = []
         for (angle, _), before, after in zip(
-            self.rays, [self.gradients[-1], *self.gradients], self.gradients, strict=False
+            self.rays, [gradients[-1], *gradients], gradients, strict=False
         ):
-            c, s = sp.cos(sp.pi * angle / 180), sp.sin(sp.pi * angle / 180)
-            result.append(_tidy((after[1] - before[1]) * c - (after[0] - before[0]) * s))
+            c, s = cos_sin(angle)
+            result.append((after[1] - before[1]) * c - (after[0] - before[0]) * s)
         return result
+
+    @cached_property
+    def _plain_jumps(self) -> list[Any]:
+        return self._jumps(_plain_cos_sin)
+
+    def jump_sum(self, n: int) -> tuple[Any, Any]:
+        """Return 2 pi (1 - n^2) h_n = sum_j J_j exp(-i n a_j) by its parts, nothing simplified.
+
+        The expressions are quick to make, to enclose and to decide about, whatever the angles are.
+        """
+        real, imaginary = [], []
+        for jump, (a, _) in zip(self._plain_jumps, self.rays, strict=True):
+            c, s = _plain_cos_sin(n * a)
+            real.append(jump * c)
+            imaginary.append(-jump * s)
+        return sp.Add(*real), sp.Add(*imaginary)
 
     def fourier(self, n: int) -> Any:
         """Return h_n = (1 / 2 pi) times the integral of h exp(-i n theta), exactly."""
@@ -157,104 +173,18 @@ class Cone:
         return p * float(np.cos(np.deg2rad(turned))) + q * float(np.sin(np.deg2rad(turned)))
 
 
+def _cos_sin(degrees: Any) -> tuple[Any, Any]:
+    return sp.cos(sp.pi * degrees / 180), sp.sin(sp.pi * degrees / 180)
+
+
+def _plain_cos_sin(degrees: Any) -> tuple[Any, Any]:
+    """Return cosine and sine without SymPy's search for a closed form, which is slow."""
+    if degrees % 90 == 0:
+        return _cos_sin(degrees)
+    angle = sp.pi * degrees / 180
+    return sp.cos(angle, evaluate=False), sp.sin(angle, evaluate=False)
+
+
 def _tidy(value: Any) -> Any:
     """Simplify radicals; sines of angles without radicals are left as they are."""
     return value if value.has(sp.cos, sp.sin) else sp.radsimp(sp.expand(value))
-
-
-def radial_moment(m: int, weight: Weight = "gaussian") -> Any:
-    """Return the integral of w(rho) rho^m over [0, 1], exactly.
-
-    For the Gaussian w = exp(-9 rho^2 / 2) it is a polynomial in q = exp(-9/2) for odd m, and
-    linear in E = sqrt(2 pi) erf(3 / sqrt 2) besides for even m.
-    """
-    return _closed(_moment(m, weight))
-
-
-def _closed(expression: Any) -> Any:
-    # sigma = R / SIGMA_RATIO = R / 3 gives the 9/2 and the 3 / sqrt 2.
-    return expression.subs(
-        {_Q: sp.exp(-sp.Rational(9, 2)), _E: sp.sqrt(2 * sp.pi) * sp.erf(3 / sp.sqrt(2))}
-    )
-
-
-@lru_cache(maxsize=1024)
-def _moment(m: int, weight: Weight) -> Any:
-    if weight == "uniform":
-        return sp.Rational(1, m + 1)
-    square = sp.Integer(int(SIGMA_RATIO)) ** 2
-    if m == 0:
-        return _E / (2 * sp.Integer(int(SIGMA_RATIO)))
-    if m == 1:
-        return (1 - _Q) / square
-    return sp.expand(((m - 1) * _moment(m - 2, weight) - _Q) / square)
-
-
-@lru_cache(maxsize=256)
-def _solution(n: int, degree: int, weight: Weight, constant: bool) -> dict[int, Any]:
-    """Return c_{k,n} by k for one frequency, rational functions of q and E."""
-    orders = [k for k in range(n, degree + 1, 2) if constant or k > 0]
-    if not orders:
-        return {}
-    if n == 1:
-        return {k: sp.Integer(int(k == 1)) for k in orders}
-    field = sp.QQ.frac_field(_Q, _E)
-    moments = {m: field.from_sympy(_moment(m, weight)) for m in range(1, 2 * degree + 3)}
-    matrix = sp.polys.matrices.DomainMatrix(
-        [[moments[k + j + 1] for j in orders] for k in orders], (len(orders),) * 2, field
-    )
-    right = sp.polys.matrices.DomainMatrix(
-        [[moments[k + 2]] for k in orders], (len(orders), 1), field
-    )
-    solved = matrix.lu_solve(right).to_list()
-    return {k: field.to_sympy(row[0]) for k, row in zip(orders, solved, strict=True)}
-
-
-def cone_coefficient(
-    order: int,
-    frequency: int,
-    degree: int = DEFAULT_DEGREE,
-    weight: Weight = "gaussian",
-    *,
-    constant: bool = True,
-) -> Any:
-    """Return c_{k,n}(K): the fit of degree K to r exp(i n theta) has phi_{k,n} = c R^(1-k).
-
-    Parameters
-    ----------
-    order, frequency
-        k and n >= 0, of the same parity, n <= k <= K.
-    degree
-        Degree K of the fit.
-    weight
-        "gaussian": exp(-9 rho^2 / 2); "uniform": 1.
-    constant
-        Whether the fit has a constant term.
-
-    Raises
-    ------
-    InputError
-        If k and n do not fit, or the weight is not known.
-
-    Examples
-    --------
-    >>> cone_coefficient(3, 3, 10, "uniform")
-    28/3
-    """
-    check_fit(degree, weight)
-    if not (0 <= frequency <= order <= degree and (order - frequency) % 2 == 0):
-        raise InputError(
-            f"There is no coefficient of order {order} and frequency {frequency} in a fit of "
-            f"degree {degree}."
-        )
-    if order == 0 and not constant:
-        raise InputError("A fit without constant term has no coefficient of order 0.")
-    return _closed(_solution(frequency, degree, weight, constant)[order])
-
-
-def check_fit(degree: int, weight: str) -> None:
-    """Refuse a degree or a weight that the closed forms do not cover."""
-    if int(degree) != degree or not 1 <= degree <= 30:
-        raise InputError(f"The degree is {degree}; it must be an integer from 1 to 30.")
-    if weight not in ("gaussian", "uniform"):
-        raise InputError(f"The weight {weight!r} is not known; use 'gaussian' or 'uniform'.")

@@ -8,12 +8,14 @@ from __future__ import annotations
 
 from fractions import Fraction
 from functools import lru_cache
+from math import floor, log10
 from typing import Any, Final
 
 import sympy as sp
 from sympy.core.evalf import PrecisionExhausted
 
 from pdtheory.errors import ComputationError
+from pdtheory.exact.algebraic import bits_for, precisions
 from pdtheory.exact.balls import Enclosure, FlintEngine, Rectangle, engine
 
 #: Functions by their names in Arb; the principal branches of both libraries agree.
@@ -181,3 +183,27 @@ def nearest_double(value: Any) -> float:
             return float(found.middle)
     # Nothing but zero is as small as this in a table of doubles.
     return float(found.middle) if found.sign else 0.0
+
+
+def rounded(value: Any, digits: int) -> Any:
+    """Return a real constant that is not zero, rounded to a number of significant digits.
+
+    The error is below one unit of the last digit; a rational number is returned as it is.
+
+    Raises
+    ------
+    ComputationError
+        If the number cannot be enclosed.
+    """
+    if value.is_Rational:
+        return value
+    for bits in precisions(bits_for(digits)):
+        found = enclose_real(value, bits)
+        if found.sign and found.width * 10 ** (digits + 1) <= abs(found.middle):
+            middle = found.middle
+            # 10^places times the number has at least `digits` digits before the point.
+            size = middle.numerator.bit_length() - middle.denominator.bit_length()
+            places = digits - floor((size - 1) * log10(2))
+            scaled = round(middle * Fraction(10) ** places)
+            return sp.Rational(scaled) / sp.Integer(10) ** places
+    raise AssertionError("unreachable")

@@ -14,10 +14,18 @@ import sympy as sp
 from pdtheory.conventions import DEFAULT_DEGREE, frequencies, wavejets_table
 from pdtheory.errors import InputError
 from pdtheory.exact.coefficients import exact
-from pdtheory.exact.cones import Cone, Measure, Weight, check_fit, cone_coefficient, radial_moment
+from pdtheory.exact.cones import Cone
 from pdtheory.exact.eigenpairs import EigenPairs, real_eigenpairs
+from pdtheory.exact.enclosing import rounded
+from pdtheory.exact.frames import without_hidden_zero
+from pdtheory.exact.moments import (
+    Measure,
+    Weight,
+    check_fit,
+    coefficient_numbers,
+    radial_moment,
+)
 from pdtheory.exact.wavejets import WavejetsRow
-from pdtheory.exact.zeros import is_zero
 
 #: Decimal digits to which the transcendental coefficients are rounded.
 DIGITS = 60
@@ -119,40 +127,34 @@ def predict(
     else:
         raise InputError(f"The measure {measure!r} is not known; use 'flat' or 'surface'.")
     if R != 1:
-        rows = {k: row * _rational(R ** (1 - k)) for k, row in rows.items()}
+        rows = {k: row * rounded(R ** (1 - k), DIGITS) for k, row in rows.items()}
     return ConePrediction(cone, degree, rows)
 
 
 def _flat_row(cone: Cone, order: int, degree: int, weight: Weight, constant: bool) -> WavejetsRow:
-    waves = {n: cone.fourier_parts(n) for n in frequencies(order)}
-    phi = {
-        n: (cone_coefficient(order, n, degree, weight, constant=constant), wave)
-        for n, wave in waves.items()
-        if not all(is_zero(part) for part in wave)
-    }
-    if len(phi) == 1:
-        # One frequency: round the size alone and keep the phase, which the directions follow.
-        ((n, (c, wave)),) = phi.items()
-        lead = next(part for part in wave if not is_zero(part))
-        if not any(part.has(sp.Function) for part in wave):
-            phase = sum(
-                sp.radsimp(part / lead) * unit for part, unit in zip(wave, (1, sp.I), strict=True)
-            )
-            return WavejetsRow(order, {n: _rational(c * lead) * phase})
-    rounded = {}
-    for n, (c, wave) in phi.items():
-        real, imaginary = (
-            _rational(c * part) if not is_zero(part) else sp.Integer(0) for part in wave
-        )
-        rounded[n] = real + sp.I * imaginary
-    return WavejetsRow(order, rounded)
+    sums = {n: cone.jump_sum(n) for n in frequencies(order) if n != 1}
+    waves = {n: (without_hidden_zero(a), without_hidden_zero(b)) for n, (a, b) in sums.items()}
+    present = {n: wave for n, wave in waves.items() if any(wave)}
+    if order == 1:
+        present[1] = cone.fourier_parts(1)
+    phi = {}
+    for n, wave in present.items():
+        c = coefficient_numbers(n, degree, weight, constant)[order]
+        # The sums are 2 pi (1 - n^2) h_n.
+        scale = c if n == 1 else c / (2 * sp.pi * (1 - n**2))
+        parts = [rounded(scale * part, DIGITS) if part else sp.Integer(0) for part in wave]
+        if len(present) == 1:
+            parts = _with_exact_phase(parts, cone.fourier_parts(n))
+        phi[n] = parts[0] + sp.I * parts[1]
+    return WavejetsRow(order, phi)
 
 
-def _rational(value: Any) -> Any:
-    """Return a real constant that is not zero, rounded to `DIGITS` digits."""
-    if value.is_Rational:
-        return value
-    return sp.Rational(str(sp.N(value, DIGITS)))
+def _with_exact_phase(parts: list[Any], wave: tuple[Any, Any]) -> list[Any]:
+    """Keep the phase of the only frequency, which the directions follow, if it is short."""
+    if any(part.has(sp.Function) for part in wave):
+        return parts
+    lead = next(i for i, part in enumerate(parts) if part)
+    return [parts[lead] * sp.radsimp(part / wave[lead]) for part in wave]
 
 
 def _surface_rows(

@@ -173,3 +173,21 @@ def test_constant_term_matters_for_frequency_zero_only():
 def test_bad_input(make, message):
     with pytest.raises(InputError, match=message):
         make()
+
+
+def test_general_azimuths_are_predicted_from_balls():
+    """The rounded rows against the closed forms, which take seconds."""
+    cone = Cone(((10, 0), (83, -1), (191, -2), (277, -1)))
+    prediction = predict(cone, 4, (3, 4))
+    for k, n in ((3, 3), (4, 2)):
+        exact = sp.N(cone_coefficient(k, n, 4), 64) * sp.N(cone.fourier(n), 64)
+        assert abs(exact - prediction.row(k)[n]) <= abs(exact) * sp.Float("1e-57", 60)
+
+
+def test_zero_frequencies_of_general_azimuths_are_exact():
+    """Three-fold symmetry turned by 17 degrees leaves the multiples of 3 alone."""
+    cone = Cone(tuple((17 + 120 * j, -1) for j in range(3)))
+    row = predict(cone, 6, (4, 5)).row(4)
+    assert row[2] == row[4] == 0
+    assert row[0] != 0
+    assert predict(cone, 6, (5,)).row(5).support == [3]
