@@ -253,7 +253,7 @@ def _estimate(console: Console, cloud: PointCloud, quiet: bool) -> DirectionFiel
             cloud, neighbours=NEIGHBOURS, degree=DEGREE, orders=ORDERS, progress=report
         )
     console.print(summary_table(field))
-    for sentence in status_sentences(field):
+    for sentence in status_sentences(field.status):
         console.print(f"  {sentence}")
     return field
 

@@ -7,11 +7,13 @@ from typing import Annotated
 
 import typer
 
-from pdtheory.cli.options import check_target, parse_orders, parse_size, progress_bar
+from pdtheory.cli.options import check_target, load_drawable, parse_orders, parse_size, progress_bar
 
 
 def draw(
-    field: Annotated[Path, typer.Argument(help="Direction field (NPZ) to draw.")],
+    field: Annotated[
+        Path, typer.Argument(help="Direction field to draw: NPZ, or the folder of a run.")
+    ],
     output: Annotated[
         Path, typer.Option("--output", "-o", help="Picture (.png) or Blender file (.blend).")
     ],
@@ -48,12 +50,11 @@ def draw(
 
     from pdtheory.blender import draw_field
     from pdtheory.io import read_cloud
-    from pdtheory.pointset.field import DirectionField
 
     check_target(output, (".png", ".blend"))
     wanted = None if orders is None else parse_orders(orders)
     resolution = parse_size(size)
-    directions = DirectionField.load(field)
+    directions = load_drawable(field)
     cloud = None if mesh is None else read_cloud(mesh)
     with progress_bar("Drawing", quiet=quiet) as report:
         draw_field(

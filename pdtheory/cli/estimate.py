@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Literal, TypeVar
 
 import typer
 
@@ -15,7 +16,11 @@ from pdtheory.errors import InputError
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from pdtheory.pointset import DirectionField
+    from pdtheory.pointset import DirectionField, PointCloud
+    from pdtheory.pointset.cloud import IntArray
+    from pdtheory.pointset.options import Options
+
+N = TypeVar("N")
 
 #: Files that `pdtheory.io.write_field` makes.
 FIELD_SUFFIXES = (".npz", ".ply", ".vtp", ".csv")
@@ -40,12 +45,17 @@ def estimate(
         typer.Option(
             "--output",
             "-o",
-            help="Where to write: .npz (complete), .ply, .vtp or .csv; may be given several times.",
+            help="Where to write: .npz (complete), .ply, .vtp or .csv, several times if wanted; or "
+            "one name without suffix, a folder for clouds whose results exceed the memory.",
             show_default=False,
         ),
     ],
     radius: Annotated[
-        float | None, typer.Option(help="Neighbourhood radius R in the units of the file.")
+        str | None,
+        typer.Option(
+            help="Neighbourhood radius R in the units of the file; several, as 0.1,0.2, or auto to "
+            "choose at each point.",
+        ),
     ] = None,
     neighbours: Annotated[
         int | None, typer.Option(help="Choose R at each point so that it holds this many points.")
@@ -53,7 +63,9 @@ def estimate(
     radius_relative: Annotated[
         float | None, typer.Option(help="R as a fraction of the bounding-box diagonal.")
     ] = None,
-    degree: Annotated[int, typer.Option(help="Degree K of the regression.")] = DEFAULT_DEGREE,
+    degree: Annotated[
+        str, typer.Option(help="Degree K of the regression, or auto to choose at each point.")
+    ] = str(DEFAULT_DEGREE),
     orders: Annotated[str, typer.Option(help="Orders to compute, as 2,3,4 or 2:7.")] = "2,3",
     norm: Annotated[Norm, typer.Option(help="l1 resists outliers, l2 is faster.")] = Norm.L2,
     samples: Annotated[
@@ -64,6 +76,9 @@ def estimate(
     threads: Annotated[
         int | None, typer.Option(help="Threads to use; all processors by default.")
     ] = None,
+    resume: Annotated[
+        bool, typer.Option("--resume", help="Go on with the folder of a run that was stopped.")
+    ] = False,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing.")] = False,
 ) -> None:
     """Estimate the principal directions of several orders at every point of INPUT.
@@ -74,7 +89,8 @@ def estimate(
     Example: pdtheory estimate scan.ply -o field.npz --neighbours 80 --degree 6 --orders 2,3,4
     """
     wanted = parse_orders(orders)
-    for target in output:
+    folder = _folder(output, resume)
+    for target in output if folder is None else ():
         check_target(target, FIELD_SUFFIXES)
     chosen = [
         name
@@ -88,49 +104,124 @@ def estimate(
     if len(chosen) > 1:
         raise InputError(f"{' and '.join(chosen)} exclude each other; give one of them.")
 
-    from pdtheory.io import read_cloud, write_field
-    from pdtheory.pointset import estimate_directions
+    from pdtheory.io import read_cloud
 
     cloud = read_cloud(source, samples=samples, seed=seed)
+    degrees = _number_or_auto(degree, "--degree", int)
     if not chosen:
-        neighbours = NEIGHBOURS_PER_UNKNOWN * (degree + 1) * (degree + 2) // 2
+        unknowns = (DEFAULT_DEGREE + 1) * (DEFAULT_DEGREE + 2) // 2
+        if not isinstance(degrees, str):
+            unknowns = (degrees + 1) * (degrees + 2) // 2
+        neighbours = NEIGHBOURS_PER_UNKNOWN * unknowns
+    options: Options = {
+        "radius": _radius(radius),
+        "neighbours": neighbours,
+        "radius_relative": radius_relative,
+        "degree": degrees,
+        "orders": wanted,
+        "norm": norm.value,
+        "threads": threads,
+    }
+    if folder is None:
+        _to_files(cloud, output, source, options, quiet)
+    else:
+        _to_folder(cloud, folder, source, options, resume, quiet)
+
+
+def _folder(output: list[Path], resume: bool) -> Path | None:
+    """Return the folder if the results go to one."""
+    folders = [target for target in output if not target.suffix or target.is_dir()]
+    if not folders:
+        if resume:
+            raise InputError(
+                f"--resume goes on with a folder, and {output[0]} is a file; give the folder of "
+                "the run."
+            )
+        return None
+    if len(output) > 1:
+        raise InputError(f"the folder {folders[0]} must be the only output; leave the others out.")
+    return folders[0]
+
+
+def _number_or_auto(text: str, name: str, kind: Callable[[str], N]) -> N | Literal["auto"]:
+    """Read a number or the word auto."""
+    if text == "auto":
+        return "auto"
+    try:
+        return kind(text)
+    except ValueError:
+        raise InputError(f"cannot read {name} {text!r}; give a number or auto.") from None
+
+
+def _radius(text: str | None) -> float | list[float] | Literal["auto"] | None:
+    """Read a radius, several with commas between them, or the word auto."""
+    if text is None:
+        return None
+    if "," not in text:
+        return _number_or_auto(text, "--radius", float)
+    try:
+        return [float(part) for part in text.split(",")]
+    except ValueError:
+        raise InputError(f"cannot read --radius {text!r}; write several as 0.1,0.2,0.4.") from None
+
+
+def _to_files(
+    cloud: PointCloud, output: list[Path], source: Path, options: Options, quiet: bool
+) -> None:
+    """Estimate in memory and write every file asked for."""
+    from pdtheory.io import write_field
+    from pdtheory.pointset import estimate_directions
+
     with progress_bar("Reading", quiet=quiet) as report:
-        field = estimate_directions(
-            cloud,
-            radius=radius,
-            neighbours=neighbours,
-            radius_relative=radius_relative,
-            degree=degree,
-            orders=wanted,
-            norm=norm.value,
-            threads=threads,
-            progress=report,
-        )
-    _refuse_empty(field, source)
+        options["progress"] = report
+        field = estimate_directions(cloud, **options)
+    _refuse_empty(field.status, source)
     for target in output:
         write_field(field, target)
-    if not quiet:
-        from rich.console import Console
-
-        from pdtheory.pointset.summary import status_sentences
-
-        console = Console()
-        console.print(summary_table(field))
-        for sentence in status_sentences(field):
-            console.print(sentence, highlight=False)
-        for target in output:
-            console.print(f"Wrote {target}", highlight=False, soft_wrap=True)
-
-
-def _refuse_empty(field: DirectionField, source: Path) -> None:
-    """Refuse a result in which no point has an answer: nobody wants a file of NaN."""
-    if field.answered.any():
+    if quiet:
         return
+    from rich.console import Console
+
     from pdtheory.pointset.summary import status_sentences
 
-    _, *reasons = status_sentences(field)
+    console = Console()
+    console.print(summary_table(field))
+    for sentence in status_sentences(field.status):
+        console.print(sentence, highlight=False)
+    for target in output:
+        console.print(f"Wrote {target}", highlight=False, soft_wrap=True)
+
+
+def _to_folder(
+    cloud: PointCloud, folder: Path, source: Path, options: Options, resume: bool, quiet: bool
+) -> None:
+    """Estimate part by part into a folder."""
+    from pdtheory.pointset import estimate_to_disk
+    from pdtheory.pointset.parts import load_column
+    from pdtheory.pointset.summary import status_sentences
+
+    with progress_bar("Reading", quiet=quiet) as report:
+        options["progress"] = report
+        parts = estimate_to_disk(cloud, folder, resume=resume, **options)
+    status = load_column(folder, "status")
+    _refuse_empty(status, source)
+    if quiet:
+        return
+    for sentence in status_sentences(status):
+        typer.echo(sentence)
+    typer.echo(f"Wrote {parts} parts to {folder}")
+
+
+def _refuse_empty(status: IntArray, source: Path) -> None:
+    """Refuse a result in which no point has an answer: nobody wants a file of NaN."""
+    from pdtheory.conventions import UNANSWERED
+    from pdtheory.pointset.summary import status_sentences
+
+    if ((status & int(UNANSWERED)) == 0).any():
+        return
+    _, *reasons = status_sentences(status)
     raise InputError(
-        f"none of the {len(field):,} points of {source} could be answered: {' '.join(reasons)}"
+        f"none of the {len(status):,} points of {source} could be answered: {' '.join(reasons)}"
     )
 
 

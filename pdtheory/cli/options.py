@@ -6,11 +6,18 @@ import os
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from pdtheory.errors import FileAccessError, InputError
 
+if TYPE_CHECKING:
+    from pdtheory.pointset.field import DirectionField
+
 #: Largest order the command line accepts; beyond it double precision carries nothing.
 MAX_ORDER = 64
+
+#: Most points of a run that a picture is drawn from; a picture shows thousands of strokes.
+DRAWABLE = 200_000
 
 Report = Callable[[float, str], None]
 
@@ -94,6 +101,25 @@ def check_target(path: Path, suffixes: tuple[str, ...]) -> None:
         raise FileAccessError(
             f"cannot write {path}: permission denied; choose a place you may write to."
         )
+
+
+def load_drawable(path: Path) -> DirectionField:
+    """Read a field to be drawn: an NPZ file, or the folder of a run, thinned if that is large.
+
+    Raises
+    ------
+    FileAccessError, FileFormatError
+        If it cannot be read.
+    """
+    from pdtheory.pointset.field import DirectionField
+
+    if not path.is_dir():
+        return DirectionField.load(path)
+    from pdtheory.pointset.parts import load_points, read_plan
+
+    total = int(read_plan(path)["queries"])
+    step = -(-total // DRAWABLE)
+    return load_points(path, range(0, total, max(step, 1)))
 
 
 @contextmanager

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
@@ -13,7 +14,10 @@ from pdtheory.errors import InputError
 
 
 def point(
-    field: Annotated[Path, typer.Argument(help="Direction field (NPZ).", show_default=False)],
+    field: Annotated[
+        Path,
+        typer.Argument(help="Direction field (NPZ, or the folder of a run).", show_default=False),
+    ],
     index: Annotated[int, typer.Argument(help="Number of the point, from 0.", show_default=False)],
     plot: Annotated[
         Path | None,
@@ -37,10 +41,15 @@ def point(
     if plot is not None:
         check_target(plot, SUFFIXES)
     wanted = None if orders is None else parse_orders(orders)
-    whole = DirectionField.load(field)
     if index < 0:
         raise InputError(f"there is no point {index}; points are counted from 0.")
-    found = whole.only(wanted).at(index) if wanted else whole.at(index)
+    if field.is_dir():
+        from pdtheory.pointset.parts import load_points
+
+        some, row = load_points(field, [index]), 0
+    else:
+        some, row = DirectionField.load(field), index
+    found = replace((some.only(wanted) if wanted else some).at(row), index=index)
     if plot is not None:
         found.plot(plot)
     if as_json:

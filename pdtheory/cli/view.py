@@ -7,12 +7,15 @@ from typing import Annotated
 
 import typer
 
-from pdtheory.cli.options import check_target, parse_orders, parse_size
+from pdtheory.cli.options import check_target, load_drawable, parse_orders, parse_size
 
 
 def view(
     field: Annotated[
-        Path, typer.Argument(help="Direction field (NPZ) to show.", show_default=False)
+        Path,
+        typer.Argument(
+            help="Direction field to show: NPZ, or the folder of a run.", show_default=False
+        ),
     ],
     mesh: Annotated[
         Path | None,
@@ -50,14 +53,13 @@ def view(
     from math import radians
 
     from pdtheory.io import read_cloud
-    from pdtheory.pointset.field import DirectionField
     from pdtheory.viewer import view_field
 
     if screenshot is not None:
         check_target(screenshot, (".png",))
     wanted = None if orders is None else parse_orders(orders)
     resolution = parse_size(size)
-    directions = DirectionField.load(field)
+    directions = load_drawable(field)
     view_field(
         directions,
         None if mesh is None else read_cloud(mesh),

@@ -7,8 +7,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from pdtheory.conventions import Status, order_colour
-from pdtheory.pointset.cloud import FloatArray
+from pdtheory.conventions import UNANSWERED, Status, order_colour
+from pdtheory.pointset.cloud import FloatArray, IntArray
 from pdtheory.pointset.field import DirectionField
 from pdtheory.pointset.words import STATUS_WORDS
 
@@ -52,11 +52,12 @@ def order_summaries(field: DirectionField) -> list[OrderSummary]:
     ]
 
 
-def status_sentences(field: DirectionField) -> list[str]:
+def status_sentences(status: IntArray) -> list[str]:
     """Say in words how many points could not be answered or are weaker than asked for, and why."""
-    sentences = [f"{int(field.answered.sum()):,} of {len(field):,} points answered."]
+    answered = int(((status & int(UNANSWERED)) == 0).sum())
+    sentences = [f"{answered:,} of {len(status):,} points answered."]
     for flag in _REPORTED:
-        count = int(((field.status & int(flag)) != 0).sum())
+        count = int(((status & int(flag)) != 0).sum())
         if count:
             sentences.append(
                 f"{count:,} {'points have' if count > 1 else 'point has'} {STATUS_WORDS[flag]}."
@@ -73,7 +74,7 @@ def field_html(field: DirectionField) -> str:
         f"<td>{row.strength:.3g}</td><td>{row.angle_std:.3g}</td></tr>"
         for row in order_summaries(field)
     )
-    notes = escape(" ".join(status_sentences(field)))
+    notes = escape(" ".join(status_sentences(field.status)))
     return (
         f"<div><strong>DirectionField</strong>, {len(field):,} points<br>{notes}"
         f"<table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table></div>"

@@ -1,5 +1,7 @@
 """``pdtheory estimate``, as a user meets it."""
 
+import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -142,3 +144,113 @@ def test_interruption_leaves_what_was_there(
     assert result.exit_code == 130
     assert target.read_bytes() == b"precious"
     assert sorted(path.name for path in tmp_path.iterdir()) == ["bumpy.xyz", "field.npz"]
+
+
+def fields_equal(one: DirectionField, two: DirectionField) -> bool:
+    return (
+        np.array_equal(one.points, two.points)
+        and np.array_equal(one.phi, two.phi, equal_nan=True)
+        and all(
+            np.array_equal(one[k].vector, two[k].vector)
+            and np.array_equal(one[k].angle_std, two[k].angle_std)
+            for k in one.orders
+        )
+    )
+
+
+def test_folder_holds_the_same_bits_as_a_file(
+    cli: Run, refused: Refused, bumpy_cloud: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("pdtheory.pointset.stream.PART", 250)
+    folder, npz = tmp_path / "run", tmp_path / "field.npz"
+    options = ("--radius", "0.4", "--degree", 4, "--orders", "2,3")
+    result = cli("estimate", bumpy_cloud, "-o", folder, *options)
+    assert result.exit_code == 0, result.output
+    assert "600 of 600 points answered." in result.stdout
+    assert "Wrote 3 parts" in result.stdout
+    cli("estimate", bumpy_cloud, "-o", npz, *options, "-q")
+    assert fields_equal(DirectionField.load(folder), DirectionField.load(npz))
+    shown = cli("point", folder, 431)
+    assert shown.exit_code == 0, shown.output
+    assert shown.stdout == cli("point", npz, 431).stdout
+    assert "no point 600" in refused("point", folder, 600)
+    assert "holds a run already" in refused("estimate", bumpy_cloud, "-o", folder, *options)
+    message = refused("estimate", bumpy_cloud, "-o", folder, *options[:-1], "2", "--resume")
+    assert "other input (orders, input differ)" in message
+
+
+INTERRUPTED = """
+import os, signal, sys, threading, time
+from pathlib import Path
+from pdtheory.cli.main import app
+from pdtheory.pointset import stream
+
+stream.PART = 2048
+folder = Path(sys.argv[1])
+
+def interrupt():
+    while len(list(folder.glob("part-*.npz"))) < 2:
+        time.sleep(0.001)
+    print("at", time.perf_counter(), flush=True)
+    os.kill(os.getpid(), signal.SIGINT)
+
+if "--resume" not in sys.argv:
+    threading.Thread(target=interrupt, daemon=True).start()
+try:
+    app(["estimate", *sys.argv[2:], "-o", sys.argv[1], "-q"], standalone_mode=False)
+finally:
+    print("ended", time.perf_counter(), flush=True)
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="sends SIGINT")
+def test_interrupted_folder_is_resumed_to_the_same_bits(cli: Run, tmp_path: Path) -> None:
+    points = np.random.default_rng(3).normal(size=(12_000, 3))
+    points /= np.linalg.norm(points, axis=1, keepdims=True)
+    source = tmp_path / "sphere.xyz"
+    np.savetxt(source, points + 0.01 * np.sin(5 * points))
+    options = (str(source), "--radius", "0.2", "--degree", "8", "--orders", "2,3,4")
+    run = [sys.executable, "-c", INTERRUPTED, str(tmp_path / "run"), *options]
+    stopped = subprocess.run(run, capture_output=True, text=True, timeout=300)
+    assert "interrupted" in stopped.stderr, stopped.stderr
+    words = stopped.stdout.split()
+    assert float(words[3]) - float(words[1]) < 1.0
+    before = {path.name: path.stat().st_mtime_ns for path in (tmp_path / "run").iterdir()}
+    # The plan and whole parts, and no temporary file.
+    assert set(before) == {"plan.json"} | {f"part-{i:06d}.npz" for i in range(len(before) - 1)}
+    assert 3 <= len(before) < 7
+    for name in sorted(before)[:-1]:
+        DirectionField.load(tmp_path / "run" / name)
+    subprocess.run([*run, "--resume"], check=True, timeout=300)
+    after = {path.name: path.stat().st_mtime_ns for path in (tmp_path / "run").iterdir()}
+    assert len(after) == 7
+    assert {name: after[name] for name in before} == before
+    npz = tmp_path / "field.npz"
+    assert cli("estimate", *options, "-o", npz, "-q").exit_code == 0
+    assert fields_equal(DirectionField.load(tmp_path / "run"), DirectionField.load(npz))
+
+
+def test_folder_and_resume_are_used_together(
+    refused: Refused, bumpy_cloud: Path, tmp_path: Path
+) -> None:
+    run = ("estimate", bumpy_cloud, "-o")
+    assert "--resume goes on" in refused(*run, tmp_path / "field.npz", "--resume")
+    assert "only output" in refused(*run, tmp_path / "run", "-o", tmp_path / "field.npz")
+    assert "cannot create" in refused(*run, tmp_path / "no" / "run", "--radius", 0.4)
+    assert "catches at most 1 points" in refused(*run, tmp_path / "run", "--radius", 1e-6)
+
+
+def test_degree_and_radius_are_chosen_where_asked(
+    cli: Run, refused: Refused, bumpy_cloud: Path, tmp_path: Path
+) -> None:
+    npz = tmp_path / "field.npz"
+    run = ("estimate", bumpy_cloud, "-o", npz, "--orders", "2,3")
+    assert cli(*run, "--degree", "auto", "--radius", "0.4,0.6", "-q").exit_code == 0
+    field = DirectionField.load(npz)
+    assert set(np.unique(field.radius)) == {0.4, 0.6}
+    assert len(np.unique(field.degree)) > 1
+    assert cli(*run, "--radius", "auto", "--degree", 4, "-q").exit_code == 0
+    assert cli(*run, "--degree", "auto", "-q").exit_code == 0
+    assert "--degree 'best'" in refused(*run, "--degree", "best")
+    assert "--radius 'wide'" in refused(*run, "--radius", "wide")
+    assert "write several as" in refused(*run, "--radius", "0.1,x")
