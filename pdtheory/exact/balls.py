@@ -86,6 +86,24 @@ class Rectangle(NamedTuple):
     real: Enclosure
     imaginary: Enclosure
 
+    @property
+    def excludes_zero(self) -> bool:
+        """True if the number is proved not to be zero."""
+        return any(side.sign in (1, -1) for side in self)
+
+    @property
+    def width(self) -> Fraction:
+        """The longer side."""
+        return max(side.width for side in self)
+
+    @property
+    def least_size(self) -> Fraction:
+        """A lower bound on the larger of the two parts in size."""
+        return max(
+            min(abs(side.lower), abs(side.upper)) if side.sign in (1, -1) else Fraction(0)
+            for side in self
+        )
+
 
 class Engine(Protocol):
     """What the exact side asks of a library of certified numbers."""
@@ -110,8 +128,14 @@ class Engine(Protocol):
     def enclosure(self, interval: Any) -> Enclosure:
         """Return rational ends of an interval number."""
 
+    def complex_interval(self, rectangle: Rectangle) -> Any:
+        """Return a complex interval number that contains the rectangle."""
+
+    def rectangle(self, interval: Any) -> Rectangle:
+        """Return a rectangle with rational corners around a complex interval number."""
+
     def sqrt(self, interval: Any) -> Any:
-        """Return the square root."""
+        """Return the principal square root; a complex number must lie off the negative axis."""
 
     def atan_degrees(self, interval: Any) -> Any:
         """Return the arc tangent in degrees."""
@@ -165,6 +189,14 @@ class FlintEngine:
         """See :class:`Engine`."""
         middle, radius = _dyadic(interval.mid()), _dyadic(interval.rad())
         return Enclosure(middle - radius, middle + radius)
+
+    def complex_interval(self, rectangle: Rectangle) -> Any:
+        """See :class:`Engine`."""
+        return self.library.acb(*(self.interval(side) for side in rectangle))
+
+    def rectangle(self, interval: Any) -> Rectangle:
+        """See :class:`Engine`."""
+        return Rectangle(self.enclosure(interval.real), self.enclosure(interval.imag))
 
     def sqrt(self, interval: Any) -> Any:
         """See :class:`Engine`."""
@@ -261,9 +293,25 @@ class SympyEngine:
         ends = (self._mpmath.mp.make_mpf(end) for end in interval._mpi_)
         return Enclosure(*(_binary(end) for end in ends))
 
+    def complex_interval(self, rectangle: Rectangle) -> Any:
+        """See :class:`Engine`."""
+        return self._mpmath.iv.mpc(*(self.interval(side) for side in rectangle))
+
+    def rectangle(self, interval: Any) -> Rectangle:
+        """See :class:`Engine`."""
+        iv = self._mpmath.iv
+        value = interval if isinstance(interval, iv.mpc) else iv.mpc(interval)
+        return Rectangle(self.enclosure(value.real), self.enclosure(value.imag))
+
     def sqrt(self, interval: Any) -> Any:
         """See :class:`Engine`."""
-        return self._mpmath.iv.sqrt(interval)
+        iv = self._mpmath.iv
+        if not isinstance(interval, iv.mpc):
+            return iv.sqrt(interval)
+        # By the half angle: both roots are of numbers that are not negative.
+        size = iv.sqrt(interval.real * interval.real + interval.imag * interval.imag)
+        real = iv.sqrt((size + interval.real) / 2)
+        return iv.mpc(real, interval.imag / (2 * real))
 
     def atan_degrees(self, interval: Any) -> Any:
         """See :class:`Engine`."""

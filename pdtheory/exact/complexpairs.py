@@ -3,28 +3,42 @@
 Qi's E-eigenvectors are complex: v = (cos t, sin t) with complex t. With tau = tan t they are the
 complex roots of F(1, tau), of which tau = +-i belong to the isotropic vectors (1, +-i), which no
 scale turns into unit vectors. v and -v form one class.
+
+The roots are isolated with proof; the vector and its eigenvalue are enclosed in rectangles that
+follow from those of the roots in interval arithmetic.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import cached_property
 from typing import Any
 
-import mpmath
 import sympy as sp
 
 from pdtheory.errors import InputError
-from pdtheory.exact.algebraic import FIRST_BITS, bits_for, precisions, primitive
-from pdtheory.exact.balls import Integers, Rectangle, complex_roots, engine, real_roots
+from pdtheory.exact.algebraic import FIRST_BITS, bits_for, precisions
+from pdtheory.exact.balls import (
+    Enclosure,
+    Integers,
+    Rectangle,
+    complex_roots,
+    engine,
+    horner,
+    real_roots,
+)
 from pdtheory.exact.coefficients import check_order
 from pdtheory.exact.eigenpairs import Outcome
-from pdtheory.exact.faces import BinaryForm, Face
-from pdtheory.exact.roots import Coefficients
-from pdtheory.exact.zeros import is_zero
+from pdtheory.exact.faces import Face
+from pdtheory.exact.roots import Coefficients, candidates, is_root
 
 #: tau^2 + 1, the polynomial of the isotropic directions.
 ISOTROPIC: Integers = (1, 0, 1)
+
+_ZERO = Enclosure(Fraction(0), Fraction(0))
+_ONE = Enclosure(Fraction(1), Fraction(1))
 
 
 @dataclass(frozen=True)
@@ -33,8 +47,6 @@ class ComplexEigenPair:
 
     Attributes
     ----------
-    form : BinaryForm
-        The form f = T_k v^k.
     polynomial : tuple of int or None
         Minimal polynomial of tau = tan t, constant term first; None for the vertical vector.
     index : int
@@ -45,63 +57,140 @@ class ComplexEigenPair:
         True for the mirror image of a root of the upper half plane.
     multiplicity : int
         Multiplicity as a root of F.
+    vanishing : bool
+        True if lambda = 0, decided exactly.
     """
 
-    form: BinaryForm
     polynomial: Integers | None
     index: int
     is_real: bool
     conjugate: bool
     multiplicity: int
+    vanishing: bool
+    _numbers: Coefficients = field(repr=False, compare=False)
 
     def tangent_enclosure(self, digits: int = 15) -> Rectangle:
         """Return a rectangle that holds tau = tan t, of width 10^-digits relative to 1."""
         if self.polynomial is None:
             raise InputError("The vertical E-eigenvector has no finite tangent.")
         for bits in precisions(bits_for(digits)):
-            if self.is_real:
-                zero = real_roots((0, 1), FIRST_BITS)[0]
-                found = Rectangle(real_roots(self.polynomial, bits)[self.index], zero)
-            else:
-                found = complex_roots(self.polynomial, bits)[self.index]
+            found = self._tangent(bits)
             if all(part.narrower_than(digits) for part in found):
-                return (
-                    found if not self.conjugate else Rectangle(found.real, found.imaginary.flip())
-                )
+                return found
         raise AssertionError("unreachable")
 
+    def vector_enclosure(self, digits: int = 15) -> tuple[Rectangle, Rectangle]:
+        """Return rectangles that hold cos t and sin t of one member of the class.
+
+        It is the same member for any number of digits, and that of `eigenvalue_enclosure`.
+        """
+        first, second = (
+            _narrowed(lambda bits, i=i: self._vector(bits)[i], digits)  # type: ignore[misc]
+            for i in (0, 1)
+        )
+        return first, second
+
+    def eigenvalue_enclosure(self, digits: int = 15) -> Rectangle:
+        """Return a rectangle that holds lambda = f(v), of width 10^-digits max(1, |lambda|)."""
+        return _narrowed(self._eigenvalue, digits)
+
     def vector(self, digits: int = 15) -> tuple[Any, Any]:
-        """Return (cos t, sin t) of one member of the class as SymPy numbers."""
-        with mpmath.workdps(digits + 15):
-            return tuple(_sympy(c, digits) for c in self._vector(digits + 15))
+        """Return (cos t, sin t) of one member of the class as SymPy numbers.
+
+        The digits are proved; they count from the larger of the real and the imaginary part.
+        """
+        first, second = (
+            _rounded(lambda bits, i=i: self._vector(bits)[i], digits)  # type: ignore[misc]
+            for i in (0, 1)
+        )
+        return first, second
 
     def eigenvalue(self, digits: int = 15) -> Any:
         """Return lambda = f(v) for that member; -v has the opposite one for odd k."""
-        with mpmath.workdps(digits + 15):
-            x, y = self._vector(digits + 15)
-            k = self.form.order
-            terms = (
-                mpmath.mpmathify(sp.N(a, digits + 15)) * x ** (k - j) * y**j
-                for j, a in enumerate(self.form.coefficients)
-            )
-            return _sympy(mpmath.fsum(terms), digits)
+        return sp.Integer(0) if self.vanishing else _rounded(self._eigenvalue, digits)
 
-    def _vector(self, digits: int) -> tuple[Any, Any]:
+    def _tangent(self, bits: int) -> Rectangle:
+        assert self.polynomial is not None
+        if self.is_real:
+            return Rectangle(real_roots(self.polynomial, bits)[self.index], _ZERO)
+        found = complex_roots(self.polynomial, bits)[self.index]
+        return Rectangle(found.real, found.imaginary.flip()) if self.conjugate else found
+
+    @cached_property
+    def _turned(self) -> bool:
+        """True if i sqrt(-s) is taken for the root of s = 1 + tau^2, which lies on or near the cut.
+
+        Decided once, so that every precision gives the same of the two vectors.
+        """
+        for bits in precisions():
+            with engine().precision(bits):
+                square = engine().rectangle(self._square(bits))
+            if square.imaginary.sign in (1, -1) or square.real.sign == 1:
+                return False
+            if square.real.sign == -1:
+                return True
+        raise AssertionError("unreachable")
+
+    def _square(self, bits: int) -> Any:
+        tau = engine().complex_interval(self._tangent(bits))
+        return 1 + tau * tau
+
+    def _cosine(self, bits: int) -> Any:
+        square = self._square(bits)
+        if not self._turned:
+            return 1 / engine().sqrt(square)
+        unit = engine().complex_interval(Rectangle(_ZERO, _ONE))
+        return 1 / (unit * engine().sqrt(-square))
+
+    def _vector(self, bits: int) -> tuple[Rectangle, Rectangle]:
         if self.polynomial is None:
-            return mpmath.mpf(0), mpmath.mpf(1)
-        box = self.tangent_enclosure(digits)
-        real, imaginary = (mpmath.mpf(p.middle.numerator) / p.middle.denominator for p in box)
-        tau = mpmath.mpc(real, imaginary)
-        cosine = 1 / mpmath.sqrt(1 + tau * tau)
-        return cosine, tau * cosine
+            return Rectangle(_ZERO, _ZERO), Rectangle(_ONE, _ZERO)
+        with engine().precision(bits):
+            cosine = self._cosine(bits)
+            sine = cosine * engine().complex_interval(self._tangent(bits))
+            return engine().rectangle(cosine), engine().rectangle(sine)
+
+    def _eigenvalue(self, bits: int) -> Rectangle:
+        if self.vanishing:
+            return Rectangle(_ZERO, _ZERO)
+        with engine().precision(bits):
+            coefficients = self._numbers.intervals(bits)
+            if self.polynomial is None:
+                value = coefficients[-1]
+            else:
+                tau = engine().complex_interval(self._tangent(bits))
+                value = horner(coefficients, tau) * self._cosine(bits) ** (len(coefficients) - 1)
+            if self._numbers.factor != 1:
+                value = value * self._numbers.factor_interval(bits)
+            one = engine().complex_interval(Rectangle(_ONE, _ZERO))
+            return engine().rectangle(one * value)
 
 
-def _sympy(value: Any, digits: int) -> Any:
-    value = mpmath.mpc(value)
-    real, imaginary = (
-        sp.Float(mpmath.nstr(p, digits + 5), digits) for p in (value.real, value.imag)
-    )
-    return real + sp.I * imaginary if value.imag else real
+def _narrowed(enclose: Callable[[int], Rectangle], digits: int) -> Rectangle:
+    """Return an enclosure of width at most 10^-digits times max(1, |number|)."""
+    for bits in precisions(bits_for(digits)):
+        found = enclose(bits)
+        if found.width * 10**digits <= max(Fraction(1), found.least_size):
+            return found
+    raise AssertionError("unreachable")
+
+
+def _rounded(enclose: Callable[[int], Rectangle], digits: int) -> Any:
+    """Return a number with this many digits; a part too small to show in them is 0."""
+    for bits in precisions(bits_for(digits)):
+        found = enclose(bits)
+        if found.real == found.imaginary == _ZERO:
+            return sp.Integer(0)
+        least = found.least_size
+        if least and found.width * 10 ** (digits + 2) <= least:
+            break
+    parts = [
+        sp.Float(sp.Rational(side.middle.numerator, side.middle.denominator), digits)
+        if abs(side.middle) * 10 ** (digits + 1) > least
+        else sp.Integer(0)
+        for side in found
+    ]
+    return parts[0] + sp.I * parts[1]
 
 
 @dataclass(frozen=True)
@@ -147,7 +236,8 @@ def complex_eigenpairs(face: Face) -> ComplexEigenPairs:
     Parameters
     ----------
     face
-        A tensor, form or row of order k >= 1 with rational coefficients (times a common factor).
+        A tensor, form or row of order k >= 1 with real algebraic coefficients (times a common
+        factor).
 
     Returns
     -------
@@ -157,10 +247,18 @@ def complex_eigenpairs(face: Face) -> ComplexEigenPairs:
     Raises
     ------
     InputError
-        If the order is 0 or the coefficients are not rational over a common factor.
+        If the order is 0, or a coefficient is symbolic, complex, or transcendental other than by a
+        common factor.
+
+    Notes
+    -----
+    For algebraic coefficients every squarefree part of F over their field is factored through its
+    norm, so that each root comes with its minimal polynomial over Q; which roots of the norm are
+    roots of the part is decided by excluding zero from one of two complementary factors.
 
     Examples
     --------
+    >>> from pdtheory.exact import BinaryForm
     >>> pairs = complex_eigenpairs(BinaryForm([1, 0, sp.Rational(3, 4), 0]))
     >>> [(p.is_real, p.multiplicity, p.eigenvalue(4)) for p in pairs]
     [(True, 1, 1.000), (False, 1, -0.5*I), (False, 1, -0.5*I)]
@@ -168,29 +266,43 @@ def complex_eigenpairs(face: Face) -> ComplexEigenPairs:
     form = face.form
     check_order(form.order, 1)
     numbers = Coefficients(form.coefficients)
-    if numbers.rationals is None:
-        raise InputError(
-            f"The coefficients of {form.expression} are not all rational over a common factor; "
-            "complex E-eigenpairs need that."
-        )
+    numbers.check_real_numbers()
     if form.is_zero:
         return ComplexEigenPairs(form.order, "vanishing", (), 0)
-    derivative = Coefficients(form.angular_derivative().coefficients)
-    if all(is_zero(a) for a in derivative.expressions):
+    derivative = form.angular_derivative()
+    if derivative.is_zero:
         return ComplexEigenPairs(form.order, "isotropic", (), 0)
-    assert derivative.rationals is not None
-    polynomial = primitive(derivative.rationals)
-    real, other, isotropic = [], [], 0
-    for factor, multiplicity in engine().factor(polynomial):
+    degree, found = candidates(derivative.coefficients)
+    value = numbers.polynomial
+    real: list[ComplexEigenPair] = []
+    other: list[ComplexEigenPair] = []
+    isotropic = 0
+    for factor, part, multiplicity in found:
         if factor == ISOTROPIC:
-            isotropic = multiplicity
+            isotropic += multiplicity
             continue
-        for i in range(len(real_roots(factor, FIRST_BITS))):
-            real.append(ComplexEigenPair(form, factor, i, True, False, multiplicity))
-        for i in range(len(complex_roots(factor, FIRST_BITS))):
-            for mirrored in (False, True):
-                other.append(ComplexEigenPair(form, factor, i, False, mirrored, multiplicity))
-    vertical = form.order - (len(polynomial) - 1)
+        for is_real, isolate in ((True, _real_rectangles), (False, complex_roots)):
+            for i in range(len(isolate(factor, FIRST_BITS))):
+
+                def place(bits: int, isolate: Any = isolate, i: int = i) -> Rectangle:
+                    return isolate(factor, bits)[i]  # noqa: B023
+
+                if not is_root(part, factor, place):
+                    continue
+                vanishing = is_root(value, factor, place)
+                target = real if is_real else other
+                for mirrored in (False,) if is_real else (False, True):
+                    target.append(
+                        ComplexEigenPair(
+                            factor, i, is_real, mirrored, multiplicity, vanishing, numbers
+                        )
+                    )
+    vertical = form.order - degree
     if vertical:
-        real.append(ComplexEigenPair(form, None, 0, True, False, vertical))
+        zero = form.coefficients[-1] == 0 or value.degree() < form.order
+        real.append(ComplexEigenPair(None, 0, True, False, vertical, zero, numbers))
     return ComplexEigenPairs(form.order, "ok", (*real, *other), isotropic)
+
+
+def _real_rectangles(polynomial: Integers, bits: int) -> list[Rectangle]:
+    return [Rectangle(root, _ZERO) for root in real_roots(polynomial, bits)]

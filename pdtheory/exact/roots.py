@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -14,7 +14,7 @@ from sympy.core.evalf import PrecisionExhausted
 
 from pdtheory.errors import ComputationError, InputError
 from pdtheory.exact.algebraic import FIRST_BITS, RealAlgebraic, precisions, primitive
-from pdtheory.exact.balls import Enclosure, engine, horner, real_roots
+from pdtheory.exact.balls import Enclosure, Integers, Rectangle, engine, horner, real_roots
 from pdtheory.exact.zeros import is_zero
 
 _T = sp.Symbol("t")
@@ -90,6 +90,13 @@ class Coefficients:
                 )
         field, elements = sp.construct_domain(self.algebraic, extension=True, field=True)
         return field, elements
+
+    @cached_property
+    def polynomial(self) -> Any:
+        """f(1, t) over the factor, as a SymPy polynomial over the field."""
+        field, elements = self.field_elements
+        poly = sp.Poly.from_list(elements[::-1], _T, domain=field)
+        return poly.set_domain(sp.QQ) if field.is_QQ else poly
 
     @cached_property
     def generator(self) -> RealAlgebraic:
@@ -184,62 +191,91 @@ def form_roots(coefficients: Sequence[Any], least_multiplicity: int = 1) -> list
     InputError
         If a coefficient is not a real algebraic number.
     """
+    degree, found = candidates(coefficients)
+    roots = [
+        (root, multiplicity)
+        for factor, part, multiplicity in found
+        if multiplicity >= least_multiplicity
+        for root in (RealAlgebraic(factor, i) for i in range(len(real_roots(factor, FIRST_BITS))))
+        if is_root(part, factor, partial(_real_place, root))
+    ]
+    ascending = [Root(*pair) for pair in _ascending(roots)]
+    at_infinity = len(coefficients) - 1 - degree
+    if at_infinity >= least_multiplicity:
+        ascending.append(Root(None, at_infinity))
+    return ascending
+
+
+def candidates(coefficients: Sequence[Any]) -> tuple[int, list[tuple[Integers, Any, int]]]:
+    """Return irreducible polynomials over Q that together have all zeros t of a form f(1, t).
+
+    Parameters
+    ----------
+    coefficients
+        Those of the form as SymPy expressions, not all zero.
+
+    Returns
+    -------
+    degree : int
+        The degree of f(1, t).
+    candidates : list of (polynomial, part, multiplicity)
+        The zeros of f(1, t) of this multiplicity are those of the squarefree part, a SymPy
+        polynomial over the field of the coefficients; each is a root of one of the irreducible
+        polynomials. For rational coefficients the part is None and all roots are zeros.
+    """
     numbers = Coefficients(tuple(coefficients))
     if numbers.rationals is not None:
         polynomial = primitive(numbers.rationals)
-        degree = len(polynomial) - 1
-        roots = [
-            (RealAlgebraic(p, i), multiplicity)
-            for p, multiplicity in engine().factor(polynomial)
-            if multiplicity >= least_multiplicity
-            for i in range(len(real_roots(p, FIRST_BITS)))
-        ]
-    else:
-        degree, roots = _algebraic_roots(numbers, least_multiplicity)
-    found = [Root(*pair) for pair in _ascending(roots)]
-    at_infinity = len(coefficients) - 1 - degree
-    return [*found, Root(None, at_infinity)] if at_infinity >= least_multiplicity else found
-
-
-def _algebraic_roots(
-    numbers: Coefficients, least_multiplicity: int
-) -> tuple[int, list[tuple[RealAlgebraic, int]]]:
-    field, elements = numbers.field_elements
-    poly = sp.Poly.from_list(elements[::-1], _T, domain=field)
-    if field.is_QQ:
-        poly = poly.set_domain(sp.QQ)
-    roots = []
+        factors = engine().factor(polynomial)
+        return len(polynomial) - 1, [(p, None, multiplicity) for p, multiplicity in factors]
+    poly = numbers.polynomial
+    found = []
     for part, multiplicity in poly.sqf_list()[1]:
-        if multiplicity < least_multiplicity:
-            continue
-        norm = part if field.is_QQ else part.norm()
-        for candidate, _ in engine().factor(primitive(_fractions(norm))):
-            minimal = sp.Poly(candidate[::-1], _T, domain=field)
-            common = sp.gcd(part, minimal)
-            rest = minimal.quo(common)
-            for i in range(len(real_roots(candidate, FIRST_BITS))):
-                root = RealAlgebraic(candidate, i)
-                if _vanishes(common, rest, root):
-                    roots.append((root, multiplicity))
-    return int(poly.degree()), roots
+        norm = part if poly.domain.is_QQ else part.norm()
+        found += [(p, part, multiplicity) for p, _ in engine().factor(primitive(_fractions(norm)))]
+    return int(poly.degree()), found
 
 
 def _fractions(poly: Any) -> list[Fraction]:
     return [Fraction(int(c.p), int(c.q)) for c in poly.all_coeffs()[::-1]]
 
 
-def _vanishes(common: Any, rest: Any, root: RealAlgebraic) -> bool:
-    """Decide which of two complementary factors of the minimal polynomial has the root."""
+def is_root(part: Any, candidate: Integers, place: Callable[[int], Rectangle]) -> bool:
+    """Decide whether a root of an irreducible polynomial is one of another polynomial too.
+
+    Over the field of the other the irreducible polynomial splits into the part that divides it and
+    the rest, and zero is excluded from the value of one of these.
+
+    Parameters
+    ----------
+    part
+        A SymPy polynomial over an algebraic field; None for one that has all the roots.
+    candidate
+        The irreducible polynomial.
+    place
+        Returns a rectangle around the root at a working precision in bits.
+    """
+    if part is None:
+        return True
+    minimal = sp.Poly(candidate[::-1], _T, domain=part.domain)
+    common = sp.gcd(part, minimal)
+    rest = minimal.quo(common)
     if common.degree() <= 0 or rest.degree() <= 0:
         return bool(common.degree() > 0)
     sides = [Coefficients(tuple(p.all_coeffs()[::-1])) for p in (common, rest)]
     for bits in precisions():
         with engine().precision(bits):
-            t = engine().interval(root.at_precision(bits))
-            signs = [engine().enclosure(horner(side.intervals(bits), t)).sign for side in sides]
-        if signs[0] or signs[1]:
-            return not signs[0]
+            t = engine().complex_interval(place(bits))
+            away = [
+                engine().rectangle(horner(side.intervals(bits), t)).excludes_zero for side in sides
+            ]
+        if any(away):
+            return not away[0]
     raise AssertionError("unreachable")
+
+
+def _real_place(root: RealAlgebraic, bits: int) -> Rectangle:
+    return Rectangle(root.at_precision(bits), Enclosure(Fraction(0), Fraction(0)))
 
 
 def _ascending(roots: list[tuple[RealAlgebraic, int]]) -> list[tuple[RealAlgebraic, int]]:

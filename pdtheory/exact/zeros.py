@@ -66,7 +66,7 @@ def is_zero(value: Any) -> bool:
 
 def _excludes_zero(value: Any, bits: int) -> bool:
     found = enclose(value, bits)
-    return found is not None and any(part.sign in (1, -1) for part in found)
+    return found is not None and found.excludes_zero
 
 
 def _is_below(value: Any, separation: int) -> bool:
@@ -75,7 +75,7 @@ def _is_below(value: Any, separation: int) -> bool:
     while bits <= 4 * MOST_BITS:
         found = enclose(value, bits)
         if found is not None:
-            if any(part.sign in (1, -1) for part in found):
+            if found.excludes_zero:
                 return False
             # Both parts below half of the bound: so is the modulus below the bound.
             if all(max(-p.lower, p.upper) < Fraction(1, 2 << separation) for p in found):

@@ -1,5 +1,6 @@
 """Complex E-eigenpairs and the E-characteristic polynomial, each against the other and by hand."""
 
+import mpmath
 import pytest
 import sympy as sp
 from hypothesis import assume, given
@@ -15,6 +16,7 @@ from pdtheory.exact import (
     real_eigenpairs,
 )
 from pdtheory.exact.characteristic import LAMBDA
+from pdtheory.exact.enclosing import enclose_real
 from pdtheory.testing.profiles import examples
 from pdtheory.testing.strategies import forms, forms_with_repeated_roots
 
@@ -146,11 +148,97 @@ def test_without_flint(monkeypatch):
         assert all(r.overlaps(s) for r, s in zip(p[2], q[2], strict=True))
 
 
+root2, root3 = sp.sqrt(2), sp.sqrt(3)
+
+
+@pytest.mark.parametrize(
+    "coefficients",
+    [
+        [1, root2, 1],
+        [1, 0, root2, 0, 1],
+        [root2, root3, -1, 2, root2 + root3],
+        [sp.cos(sp.pi / 7), 1, 0, -2],
+        [sp.pi, 0, sp.pi * root2, 1 * sp.pi, -sp.pi],
+        [sp.cbrt(2), 1, sp.cbrt(4), 0, 3, -1, 2],
+    ],
+)
+def test_algebraic_coefficients_against_mpmath(coefficients):
+    """Every root of F(1, tau) that mpmath finds with 60 digits lies in one enclosure."""
+    form = BinaryForm(coefficients)
+    pairs = complex_eigenpairs(form)
+    assert pairs.count == max(form.row.support)
+    with mpmath.workdps(70):
+        derivative = [mpmath.mpmathify(sp.N(c, 70))
+                      for c in form.angular_derivative().coefficients]  # fmt: skip
+        while abs(derivative[-1]) < mpmath.mpf(10) ** -60:
+            derivative.pop()
+        zeros = mpmath.polyroots(derivative[::-1], maxsteps=500, extraprec=400)
+        boxes = [p.tangent_enclosure(45) for p in pairs if p.polynomial is not None]
+        for box in boxes:
+            near = [z for z in zeros if _distance(box.real, z.real) < mpmath.mpf(10) ** -40
+                    and _distance(box.imaginary, z.imag) < mpmath.mpf(10) ** -40]  # fmt: skip
+            assert len(near) == 1
+        assert len(boxes) + 2 * bool(pairs.isotropic_multiplicity) == len(zeros)
+
+
+def _distance(side, value):
+    lower, upper = (mpmath.mpf(e.numerator) / e.denominator for e in side)
+    return max(lower - value, value - upper, 0)
+
+
+def test_algebraic_multiplicities_are_exact():
+    # F is made of (t^2 - sqrt(2) t + 1)^2, whose zeros are no real numbers, and of t.
+    base = x**2 - root2 * x * y + y**2
+    form = BinaryForm.from_expression(sp.expand(base**3))
+    pairs = complex_eigenpairs(form)
+    double = [p for p in pairs if p.multiplicity == 2]
+    assert len(double) == 2
+    assert not any(p.is_real for p in double)
+    assert all(p.vanishing and p.eigenvalue(30) == 0 for p in double)
+    assert pairs.count == 6
+    assert not any(p.vanishing for p in pairs if p.multiplicity == 1)
+
+
+@pytest.mark.parametrize("name", ["FlintEngine", "SympyEngine"])
+def test_vectors_and_eigenvalues_are_certified(monkeypatch, name):
+    """At two precisions the enclosures of one member overlap and satisfy the definition."""
+    engine = getattr(balls, name)()
+    for module in ("balls", "algebraic", "roots", "eigenpairs", "complexpairs"):
+        monkeypatch.setattr(f"pdtheory.exact.{module}.engine", lambda: engine)
+    # x^3 + 3/4 x y^2 has tau = +-2i, on the cut of the root of 1 + tau^2.
+    for form in (HAND, BinaryForm([1, 2, -1, 3, 1]), BinaryForm([1, root2, 0, 3])):
+        for pair in complex_eigenpairs(form):
+            wide, narrow = pair.eigenvalue_enclosure(10), pair.eigenvalue_enclosure(40)
+            assert all(p.overlaps(q) for p, q in zip(wide, narrow, strict=True))
+            assert narrow.width < sp.Rational(1, 10**39)
+            v = pair.vector_enclosure(40)
+            again = pair.vector_enclosure(5)
+            for p, q in zip(v, again, strict=True):
+                assert all(r.overlaps(s) for r, s in zip(p, q, strict=True))
+            with engine.precision(200):
+                X, Y = (engine.complex_interval(c) for c in v)
+                value = engine.complex_interval(narrow)
+                # |v| = 1 and T v^(k-1) = lambda v: zero is inside the intervals.
+                one = engine.rectangle(X * X + Y * Y - 1)
+                assert not one.excludes_zero
+                assert one.width < sp.Rational(1, 10**35)
+                k = form.order
+                for part, component in zip(form.gradient(), (X, Y), strict=True):
+                    terms = (
+                        engine.interval(enclose_real(sp.sympify(c), 200)) * X ** (k - 1 - j) * Y**j
+                        for j, c in enumerate(part.coefficients)
+                    )
+                    defect = engine.rectangle(sum(terms, 0 * X) - k * value * component)
+                    assert not defect.excludes_zero
+
+
 def test_statuses_and_bad_input():
     assert complex_eigenpairs(BinaryForm([1, 0, 1])).status == "isotropic"
     assert complex_eigenpairs(BinaryForm([0, 0])).status == "vanishing"
-    with pytest.raises(InputError, match="rational"):
-        complex_eigenpairs(BinaryForm([1, sp.sqrt(2), 1]))
+    with pytest.raises(InputError, match="algebraic"):
+        complex_eigenpairs(BinaryForm([1, sp.pi, 1]))
+    with pytest.raises(InputError, match="depends on a"):
+        complex_eigenpairs(BinaryForm([1, a, 1]))
     with pytest.raises(InputError, match="order is 1"):
         characteristic_polynomial(BinaryForm([1, 1]))
     with pytest.raises(InputError, match="41"):
