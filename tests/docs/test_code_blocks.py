@@ -21,7 +21,8 @@ from pdtheory.pointset import PointCloud
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
-PAGES = sorted([ROOT / "README.md", *DOCS.glob("*.md"), *DOCS.glob("howto/*.md")])
+GUIDES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md"]
+PAGES = sorted([*GUIDES, *DOCS.glob("*.md"), *DOCS.glob("howto/*.md")])
 
 _FENCE = re.compile(r"^( *)```([^\n`]*)\n(.*?)^\1```$", re.MULTILINE | re.DOTALL)
 
