@@ -1,7 +1,6 @@
 """Symmetric tensors of dimension 2 and their E-eigenpairs, exactly."""
 
 from pdtheory.exact.algebraic import RealAlgebraic
-from pdtheory.exact.balls import Enclosure
 from pdtheory.exact.characteristic import (
     CharacteristicPolynomial,
     characteristic_polynomial,
@@ -9,20 +8,18 @@ from pdtheory.exact.characteristic import (
 )
 from pdtheory.exact.complexpairs import ComplexEigenPair, ComplexEigenPairs, complex_eigenpairs
 from pdtheory.exact.cones import Cone
-from pdtheory.exact.eigenpairs import EigenPair, EigenPairs, real_eigenpairs
+from pdtheory.exact.eigenpair import EigenPair
+from pdtheory.exact.eigenpairs import EigenPairs, real_eigenpairs
 from pdtheory.exact.expression import parse_expression
 from pdtheory.exact.faces import BinaryForm, Face
-from pdtheory.exact.inverse import (
-    Realization,
-    realize_maxima,
-    rosy_kinds,
-    rows_with_critical_lines,
-)
+from pdtheory.exact.intervals import Enclosure
+from pdtheory.exact.inverse import Realization, realize_maxima, rows_with_critical_lines
 from pdtheory.exact.jets import explicit_jet, implicit_jet, parametric_jet
 from pdtheory.exact.moments import cone_coefficient, radial_moment
 from pdtheory.exact.named import NamedConstant
 from pdtheory.exact.prediction import ConePrediction, predict
 from pdtheory.exact.report import report
+from pdtheory.exact.rosy import rosy_kinds
 from pdtheory.exact.strata import count_bounds, count_maxima, parametric_discriminant
 from pdtheory.exact.surfacejet import SurfaceJet
 from pdtheory.exact.taylor import differential_tensor, taylor_forms

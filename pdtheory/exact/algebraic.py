@@ -14,7 +14,9 @@ from typing import Any, Final
 import sympy as sp
 
 from pdtheory.errors import ComputationError
-from pdtheory.exact.balls import Enclosure, Integers, engine, real_roots
+from pdtheory.exact.balls import engine, real_roots
+from pdtheory.exact.engines import Integers
+from pdtheory.exact.intervals import Enclosure
 
 #: Longest text of a radical that is shown instead of the minimal polynomial.
 SHORT: Final = 48

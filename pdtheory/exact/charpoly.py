@@ -10,7 +10,7 @@ import sympy as sp
 from sympy.polys.matrices import DomainMatrix
 
 from pdtheory.exact.algebraic import primitive
-from pdtheory.exact.balls import Integers
+from pdtheory.exact.engines import Integers
 
 
 def value_polynomial(

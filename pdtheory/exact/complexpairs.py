@@ -20,18 +20,12 @@ import sympy as sp
 
 from pdtheory.errors import InputError
 from pdtheory.exact.algebraic import FIRST_BITS, bits_for, precisions
-from pdtheory.exact.balls import (
-    Enclosure,
-    Integers,
-    Rectangle,
-    complex_roots,
-    engine,
-    horner,
-    real_roots,
-)
+from pdtheory.exact.balls import complex_roots, engine, horner, real_roots
 from pdtheory.exact.coefficients import check_order
 from pdtheory.exact.eigenpairs import Outcome
+from pdtheory.exact.engines import Integers
 from pdtheory.exact.faces import Face
+from pdtheory.exact.intervals import Enclosure, Rectangle
 from pdtheory.exact.roots import Coefficients, candidates, is_root
 
 #: tau^2 + 1, the polynomial of the isotropic directions.

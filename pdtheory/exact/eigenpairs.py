@@ -7,223 +7,23 @@ factored exactly and its real roots isolated with proof, so their number is prov
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
-from fractions import Fraction
-from functools import cached_property, lru_cache, partial
-from math import cos, radians, sin
+from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import Any, Literal
-
-import sympy as sp
 
 from pdtheory.conventions import Kind
 from pdtheory.exact.algebraic import (
-    SHORT,
     RealAlgebraic,
-    bits_for,
     precisions,
-    to_float,
 )
-from pdtheory.exact.balls import Enclosure, Integers, engine, horner
-from pdtheory.exact.charpoly import cosine_squared_polynomial, value_polynomial
+from pdtheory.exact.balls import engine
 from pdtheory.exact.coefficients import check_order
+from pdtheory.exact.eigenpair import EigenPair
 from pdtheory.exact.faces import BinaryForm, Face
 from pdtheory.exact.roots import Coefficients, form_roots
 from pdtheory.exact.zeros import is_zero
 
 Outcome = Literal["ok", "isotropic", "vanishing"]
-
-#: Largest degree of an eigenvalue whose minimal polynomial is worked out for a text.
-LARGEST_TEXT = 24
-
-
-@dataclass(frozen=True)
-class EigenPair:
-    """One real E-eigenvector v = (cos theta, sin theta) with its E-eigenvalue lambda = T_k v^k.
-
-    Attributes
-    ----------
-    tangent : RealAlgebraic or None
-        tan(theta); None for theta = 90 and 270 degrees.
-    opposite : bool
-        True if theta is in [180, 360): the vector is minus the one at theta - 180.
-    kind : Kind
-        Maximum, minimum or inflection of g_k at theta, decided exactly.
-    multiplicity : int
-        Multiplicity of theta as a zero of the derivative of g_k.
-    vanishing : bool
-        True if lambda = 0, decided exactly.
-    """
-
-    tangent: RealAlgebraic | None
-    opposite: bool
-    kind: Kind
-    multiplicity: int
-    vanishing: bool
-    _numbers: Coefficients = field(repr=False, compare=False)
-
-    @property
-    def t(self) -> Any:
-        """tan(theta), exactly; ``oo`` where the vector is vertical."""
-        return sp.oo if self.tangent is None else self.tangent.exact
-
-    @property
-    def vector(self) -> tuple[Any, Any]:
-        """(cos theta, sin theta), exactly."""
-        turn = -1 if self.opposite else 1
-        if self.tangent is None:
-            return sp.Integer(0), sp.Integer(turn)
-        right = -turn if self.tangent.sign() < 0 else turn
-        square = self._short_cosine_squared
-        if square is not None:
-            cosine, sine = (sp.sqrtdenest(sp.sqrt(sp.expand(s))) for s in (square, 1 - square))
-            return sp.expand(right * cosine), sp.expand(turn * sine)
-        t = self.tangent.exact
-        return right / sp.sqrt(1 + t**2), right * t / sp.sqrt(1 + t**2)
-
-    @cached_property
-    def _short_cosine_squared(self) -> Any | None:
-        """cos(theta)^2 in radicals if tan(theta) and it are short, else None."""
-        tangent = self.tangent
-        if tangent is None or tangent.radical is None:
-            return None
-        polynomial = cosine_squared_polynomial(tangent.polynomial)
-        return RealAlgebraic.select(polynomial, partial(_cosine_squared, tangent)).radical
-
-    @cached_property
-    def eigenvalue_number(self) -> RealAlgebraic:
-        """lambda as a real algebraic number, with its minimal polynomial.
-
-        Where the coefficients have a transcendental common factor it is lambda over that factor.
-        """
-        if self.vanishing:
-            return RealAlgebraic.rational(0)
-        coefficients = self._numbers.in_generator
-        modulus: Integers = (0, 1)
-        if self.tangent is None:
-            coefficients = coefficients[::-1]
-        else:
-            modulus = self.tangent.polynomial
-        polynomial = value_polynomial(coefficients, self._numbers.generator.polynomial, modulus)
-        return RealAlgebraic.select(polynomial, lambda bits: self._enclose_eigenvalue(bits, False))
-
-    @property
-    def eigenvalue(self) -> Any:
-        """lambda, exactly: radicals if short, else a root of its minimal polynomial."""
-        return self._numbers.factor * self.eigenvalue_number.exact
-
-    def angle_enclosure(self, digits: int = 15) -> Enclosure:
-        """Return an enclosure of theta in degrees, in [0, 360), of relative width 10^-digits."""
-        turn = 180 if self.opposite else 0
-        if self.tangent is None:
-            return Enclosure(Fraction(90 + turn), Fraction(90 + turn))
-        sign = self.tangent.sign()
-        if sign == 0:
-            return Enclosure(Fraction(turn), Fraction(turn))
-        tangent, turn = self.tangent, turn + (180 if sign < 0 else 0)
-        return _narrow(lambda bits: _angle(tangent, bits).shift(turn), digits)
-
-    def unit_vector(self) -> tuple[float, float]:
-        """Return (cos theta, sin theta) in double precision, without the exact expressions."""
-        angle = self.angle_enclosure(20).middle
-        # Folding to [-45, 45] degrees first keeps the components exact on the axes.
-        quarter = round(angle / 90)
-        rest = radians(float(angle - 90 * quarter))
-        c, s = cos(rest), sin(rest)
-        return ((c, s), (-s, c), (-c, -s), (s, -c))[quarter % 4]
-
-    def eigenvalue_enclosure(self, digits: int = 15) -> Enclosure:
-        """Return an enclosure of lambda of width at most 10^-digits times max(1, |lambda|)."""
-        return _narrow(self._enclose_eigenvalue, digits)
-
-    def angle_degrees(self, digits: int = 15) -> Any:
-        """Return theta in degrees, in [0, 360), as a SymPy Float with this many digits."""
-        return to_float(self.angle_enclosure, digits)
-
-    def eigenvalue_float(self, digits: int = 15) -> Any:
-        """Return lambda as a SymPy Float with this many digits."""
-        return (
-            sp.Float(0, digits) if self.vanishing else to_float(self.eigenvalue_enclosure, digits)
-        )
-
-    @property
-    def exact_text(self) -> str:
-        """The pair for people: radicals when short, else minimal polynomials and enclosures."""
-        direction = "" if self.tangent is None else f"tan(theta) = {self.tangent.text()}"
-        if self.tangent is None or self._short_cosine_squared is not None:
-            components = [str(c) for c in self.vector]
-            if max(len(c) for c in components) <= SHORT or not direction:
-                direction = f"v = ({', '.join(components)})"
-        return f"{direction}, lambda = {self.eigenvalue_text()}"
-
-    def enclosure_text(self, digits: int = 15) -> str:
-        """The pair for people by its enclosures alone: for rows that were rounded."""
-        angle = self.angle_enclosure(digits).text(digits)
-        value = self.eigenvalue_enclosure(digits).text(digits)
-        return f"theta in {angle} degrees, lambda in {value}"
-
-    def eigenvalue_text(self, digits: int = 15) -> str:
-        """Return lambda for people; beyond a degree of `LARGEST_TEXT` by its enclosure alone."""
-        degree = self._numbers.generator.degree * (self.tangent.degree if self.tangent else 1)
-        if self.vanishing or degree <= LARGEST_TEXT:
-            text = self.eigenvalue_number.text(digits)
-            factor = self._numbers.factor
-            return text if factor == 1 else f"{factor} times {text}"
-        return f"a number in {self.eigenvalue_enclosure(digits).text(digits)}"
-
-    def _enclose_eigenvalue(self, bits: int, with_factor: bool = True) -> Enclosure:
-        if self.vanishing:
-            return Enclosure(Fraction(0), Fraction(0))
-        value = _value(self._numbers, self.tangent, bits, with_factor)
-        turned = self.opposite
-        if self.tangent is not None and self.tangent.sign() < 0:
-            turned = not turned
-        odd = len(self._numbers.expressions) % 2 == 0
-        return value.flip() if turned and odd else value
-
-
-def _angle(tangent: RealAlgebraic, bits: int) -> Enclosure:
-    """Return an enclosure of atan(t) in degrees."""
-    with engine().precision(bits):
-        t = engine().interval(tangent.at_precision(bits))
-        return engine().enclosure(engine().atan_degrees(t))
-
-
-def _cosine_squared(tangent: RealAlgebraic, bits: int) -> Enclosure:
-    """Return an enclosure of 1 / (1 + t^2)."""
-    with engine().precision(bits):
-        t = engine().interval(tangent.at_precision(bits))
-        return engine().enclosure(1 / (1 + t * t))
-
-
-# A pair and its opposite ask for the same value one after the other.
-@lru_cache(maxsize=256)
-def _value(
-    numbers: Coefficients, tangent: RealAlgebraic | None, bits: int, with_factor: bool
-) -> Enclosure:
-    """Return an enclosure of f(v) for v = (1, t) / sqrt(1 + t^2), or (0, 1)."""
-    order = len(numbers.expressions) - 1
-    with engine().precision(bits):
-        coefficients = numbers.intervals(bits)
-        if tangent is None:
-            value = coefficients[-1]
-        else:
-            t = engine().interval(tangent.at_precision(bits))
-            square = 1 + t * t
-            value = horner(coefficients, t) / square ** (order // 2)
-            if order % 2:
-                value = value / engine().sqrt(square)
-        if with_factor and numbers.factor != 1:
-            value = value * numbers.factor_interval(bits)
-        return engine().enclosure(value)
-
-
-def _narrow(enclose: Callable[[int], Enclosure], digits: int) -> Enclosure:
-    for bits in precisions(bits_for(digits)):
-        found = enclose(bits)
-        if found.narrower_than(digits):
-            return found
-    raise AssertionError("unreachable")
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,9 @@ from sympy.core.evalf import PrecisionExhausted
 
 from pdtheory.errors import ComputationError
 from pdtheory.exact.algebraic import bits_for, precisions
-from pdtheory.exact.balls import Enclosure, FlintEngine, Rectangle, engine
+from pdtheory.exact.balls import engine
+from pdtheory.exact.engines import FlintEngine
+from pdtheory.exact.intervals import Enclosure, Rectangle
 
 #: Functions by their names in Arb; the principal branches of both libraries agree.
 _ARB: Final = {

@@ -10,8 +10,10 @@ import sympy as sp
 from pdtheory.conventions import DEFAULT_DEGREE, SIGMA_RATIO
 from pdtheory.errors import InputError
 from pdtheory.exact.algebraic import bits_for, precisions
-from pdtheory.exact.balls import Enclosure, FlintEngine, engine
+from pdtheory.exact.balls import engine
 from pdtheory.exact.enclosing import enclose_real, rounded
+from pdtheory.exact.engines import FlintEngine
+from pdtheory.exact.intervals import Enclosure
 
 Weight = Literal["gaussian", "uniform"]
 Measure = Literal["flat", "surface"]

@@ -10,11 +10,13 @@ from itertools import pairwise
 from typing import Any, NamedTuple
 
 import sympy as sp
-from sympy.core.evalf import PrecisionExhausted
 
-from pdtheory.errors import ComputationError, InputError
+from pdtheory.errors import InputError
 from pdtheory.exact.algebraic import FIRST_BITS, RealAlgebraic, precisions, primitive
-from pdtheory.exact.balls import Enclosure, Integers, Rectangle, engine, horner, real_roots
+from pdtheory.exact.balls import engine, horner, real_roots
+from pdtheory.exact.enclosing import enclose_real
+from pdtheory.exact.engines import Integers
+from pdtheory.exact.intervals import Enclosure, Rectangle
 from pdtheory.exact.zeros import is_zero
 
 _T = sp.Symbol("t")
@@ -106,12 +108,12 @@ class Coefficients:
             return RealAlgebraic.rational(0)
         minimal = primitive([Fraction(int(c.p), int(c.q)) for c in _rationals(field.mod.to_list())])
         expression = field.ext.as_expr()
-        return RealAlgebraic.select(minimal, lambda bits: evaluated(expression, bits))
+        return RealAlgebraic.select(minimal, lambda bits: enclose_real(expression, bits))
 
     @cached_property
     def factor_interval(self) -> Callable[[int], Any]:
         """An interval number for the common factor at a working precision in bits."""
-        return lambda bits: engine().interval(evaluated(self.factor, bits))
+        return lambda bits: engine().interval(enclose_real(self.factor, bits))
 
     @cached_property
     def in_generator(self) -> list[list[Fraction]]:
@@ -142,29 +144,6 @@ class Coefficients:
             return [number(Enclosure(r, r)) for r in self.rationals]
         a = number(self.generator.at_precision(bits))
         return [horner([number(Enclosure(c, c)) for c in p], a) for p in self.in_generator]
-
-
-def evaluated(expression: Any, bits: int) -> Enclosure:
-    """Return an enclosure of a constant expression by SymPy's evaluation to a given accuracy.
-
-    Raises
-    ------
-    ComputationError
-        If SymPy cannot reach that accuracy.
-    """
-    if expression.is_Rational:
-        value = Fraction(int(expression.p), int(expression.q))
-        return Enclosure(value, value)
-    digits = int(bits * 0.302) + 5
-    try:
-        value = sp.Rational(expression.evalf(digits, maxn=20 * digits, strict=True))
-    except PrecisionExhausted as error:
-        raise ComputationError(
-            f"The number {expression} could not be evaluated to {digits} digits."
-        ) from error
-    middle = Fraction(int(value.p), int(value.q))
-    slack = max(Fraction(1), abs(middle)) / 2 ** (bits - 8)
-    return Enclosure(middle - slack, middle + slack)
 
 
 def _rationals(leading_first: Sequence[Any]) -> list[Any]:

@@ -12,6 +12,7 @@ from pdtheory.exact import (
     balls,
     characteristic_polynomial,
     complex_eigenpairs,
+    engines,
     is_irregular,
     real_eigenpairs,
 )
@@ -134,8 +135,8 @@ def test_the_definition_holds(form):
 def test_without_flint(monkeypatch):
     form = BinaryForm([1, 2, -1, 3, 1])
     first = [(p.is_real, p.multiplicity, p.tangent_enclosure()) for p in complex_eigenpairs(form)]
-    engine = balls.SympyEngine()
-    for module in ("balls", "algebraic", "roots", "eigenpairs", "complexpairs"):
+    engine = engines.SympyEngine()
+    for module in ("balls", "algebraic", "roots", "eigenpairs", "complexpairs", "enclosing"):
         monkeypatch.setattr(f"pdtheory.exact.{module}.engine", lambda: engine)
     balls.real_roots.cache_clear()
     balls.complex_roots.cache_clear()
@@ -202,8 +203,8 @@ def test_algebraic_multiplicities_are_exact():
 @pytest.mark.parametrize("name", ["FlintEngine", "SympyEngine"])
 def test_vectors_and_eigenvalues_are_certified(monkeypatch, name):
     """At two precisions the enclosures of one member overlap and satisfy the definition."""
-    engine = getattr(balls, name)()
-    for module in ("balls", "algebraic", "roots", "eigenpairs", "complexpairs"):
+    engine = getattr(engines, name)()
+    for module in ("balls", "algebraic", "roots", "eigenpairs", "complexpairs", "enclosing"):
         monkeypatch.setattr(f"pdtheory.exact.{module}.engine", lambda: engine)
     # x^3 + 3/4 x y^2 has tau = +-2i, on the cut of the root of 1 + tau^2.
     for form in (HAND, BinaryForm([1, 2, -1, 3, 1]), BinaryForm([1, root2, 0, 3])):

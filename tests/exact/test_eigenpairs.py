@@ -8,7 +8,7 @@ from hypothesis import assume, given
 
 from pdtheory.conventions import Kind
 from pdtheory.errors import InputError
-from pdtheory.exact import BinaryForm, WavejetsRow, balls, real_eigenpairs
+from pdtheory.exact import BinaryForm, WavejetsRow, balls, engines, real_eigenpairs
 from pdtheory.testing.profiles import examples
 from pdtheory.testing.strategies import any_forms, forms, forms_with_repeated_roots
 
@@ -29,9 +29,9 @@ def value_at(form, pair, digits=60):
 @pytest.fixture(params=["python-flint", "sympy"])
 def each_engine(request, monkeypatch):
     """Run a test with either library of certified numbers."""
-    made = balls.FlintEngine() if request.param == "python-flint" else balls.SympyEngine()
+    made = engines.FlintEngine() if request.param == "python-flint" else engines.SympyEngine()
     balls.real_roots.cache_clear()
-    for module in ("balls", "algebraic", "roots", "eigenpairs"):
+    for module in ("balls", "algebraic", "roots", "eigenpair", "eigenpairs"):
         monkeypatch.setattr(f"pdtheory.exact.{module}.engine", lambda: made)
     yield made
     balls.real_roots.cache_clear()

@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 from pdtheory.conventions import Kind
 from pdtheory.errors import InputError
 from pdtheory.exact import WavejetsRow, real_eigenpairs
-from pdtheory.exact.inverse import realize_maxima, rosy_kinds, rows_with_critical_lines
+from pdtheory.exact.inverse import realize_maxima, rows_with_critical_lines
+from pdtheory.exact.rosy import rosy_kinds
 from pdtheory.testing.profiles import examples
 
 

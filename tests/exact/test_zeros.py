@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pdtheory.errors import ComputationError
-from pdtheory.exact import BinaryForm, balls, enclosing, taylor_forms
+from pdtheory.exact import BinaryForm, enclosing, engines, taylor_forms
 from pdtheory.exact.enclosing import enclose, nearest_double
 from pdtheory.exact.named import NamedConstant
 from pdtheory.exact.separation import separation_bits
@@ -73,7 +73,7 @@ def test_what_cannot_be_proved_is_refused(value):
 
 @pytest.mark.parametrize("value", ZEROS[:6] + NEAR[:4], ids=str)
 def test_without_flint(monkeypatch, value):
-    engine = balls.SympyEngine()
+    engine = engines.SympyEngine()
     monkeypatch.setattr("pdtheory.exact.enclosing.engine", lambda: engine)
     assert is_zero(value) == any(value is z for z in ZEROS)
 
