@@ -11,16 +11,25 @@ from scipy.spatial import cKDTree
 
 from pdtheory.conventions import wavejets_table
 from pdtheory.pointset.cloud import FloatArray, IntArray
-from pdtheory.pointset.kernels.chunk import Output, make_output, run_chunk
+from pdtheory.pointset.kernels.chunk import fit_chunk
+from pdtheory.pointset.kernels.directions import (
+    BENCH,
+    find_directions,
+)
 from pdtheory.pointset.kernels.fit import Settings
 from pdtheory.pointset.kernels.grid import Grid, build_grid, cell_order
-from pdtheory.pointset.kernels.tables import Tables, make_tables
+from pdtheory.pointset.kernels.lanes import LANES
+from pdtheory.pointset.kernels.moments import CLOUD_ROWS
+from pdtheory.pointset.kernels.results import Output, join, make_directions, make_jets
+from pdtheory.pointset.kernels.tables import WORKSPACE, aligned, make_record, make_tables
 from pdtheory.pointset.neighbourhoods import Choice, nearest, refuse_crowd
 from pdtheory.pointset.pool import Flag
 
 #: Points are collected this many radii around when the weights depend on the planar distance: the
 #: face of a cube corner rises by sqrt(2) over the plane of the corner, so sqrt(3) radii see it all.
 PLANAR_REACH = 1.75
+#: Neighbours that memory is kept for at first.
+_CAPACITY = 1024
 
 
 class Engine:
@@ -71,7 +80,6 @@ class Engine:
         self.settings = settings
         self._rounding = rounding
         self._columns = len(wavejets_table(settings.degree))
-        self._tables: Tables = make_tables(max(settings.degree, 4))
         self._reach = PLANAR_REACH if settings.planar else 1.0
         extent = float(np.ptp(points, axis=0).max())
         if choice.radius is not None:
@@ -96,7 +104,6 @@ class Engine:
         other = copy(self)
         other.settings = self.settings._replace(degree=degree)
         other._columns = len(wavejets_table(degree))
-        other._tables = make_tables(max(degree, 4))
         return other
 
     def rows(self, size: int) -> IntArray:
@@ -119,21 +126,43 @@ class Engine:
             radii, lists = nearest(self._tree, queries, self.choice.neighbours or 0)
             # A strided view would be another type, for which everything is compiled once more.
             radii = np.ascontiguousarray(radii)
-        output = make_output(size, self.orders, self._columns)
-        run_chunk(
-            self._grid,
-            queries,
+        jets = make_jets(size, self.orders, self._columns, self.settings.uncertainty)
+        directions = make_directions(size, self.orders)
+        tables = make_tables()
+        workspace = make_record(WORKSPACE)
+        capacity = _CAPACITY
+        begin = 0
+        while True:
+            done = fit_chunk(
+                self._grid,
+                queries,
+                radii,
+                self.references[where],
+                lists,
+                self._valid[where],
+                self.orders,
+                self._reach,
+                self._rounding,
+                self.settings,
+                tables,
+                workspace,
+                aligned(CLOUD_ROWS, capacity),
+                flag,
+                begin,
+                jets,
+            )
+            if done >= 0:
+                break
+            begin = -1 - done
+            capacity = 2 * int(jets.neighbours[begin]) // LANES * LANES
+        find_directions(
+            jets,
             radii,
-            self.references[where],
-            lists,
-            self._valid[where],
             self.orders,
             self.rows(size),
-            self._reach,
-            self._rounding,
-            self.settings,
-            self._tables,
+            tables,
+            make_record(BENCH),
             flag,
-            output,
+            directions,
         )
-        return radii, output
+        return radii, join(jets, directions)

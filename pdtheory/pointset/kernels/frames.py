@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from pdtheory.pointset.kernels.jit import Array, inner
+from pdtheory.pointset.kernels.lanes import LANES, Lanes, Rows, emit
+from pdtheory.pointset.kernels.moments import DX, DY, DZ, WEIGHT
 
 #: Below this ratio of the middle to the largest variance the neighbours lie on a line.
 COLLINEAR = 1e-14
@@ -52,9 +56,33 @@ def symmetric_axes(A: Array, Q: Array) -> None:
                     Q[r, q] = s * u + c * v
 
 
+@emit
+def _sum_spread(to: Lanes, cloud: Rows, n: Any, plane: Rows, out: Rows) -> None:
+    """Sum u and its products with coordinates: 1, x, y, z, xx, xy, xz, yy, yz, zz.
+
+    u = w / (1 + d^2 scale), d being the distance from the plane (nx, ny, nz, height, scale).
+    """
+    nx, ny, nz, height, scale = (to.spread(to.get(plane.at(i))) for i in range(5))
+    sums = [to.variable(to.constant(0.0)) for _ in range(10)]
+    one = to.constant(1.0)
+    with to.count(0, n, LANES) as i:
+        x, y, z, w = (to.load(cloud.at(row, i)) for row in (DX, DY, DZ, WEIGHT))
+        d = to.add(to.times(x, nx), to.times(y, ny))
+        d = to.subtract(to.add(to.times(z, nz), d), height)
+        u = to.divide(w, to.add(to.times(to.times(d, d), scale), one))
+        ux, uy, uz = to.times(u, x), to.times(u, y), to.times(u, z)
+        terms = [(u, one), (u, x), (u, y), (u, z), (ux, x), (ux, y), (ux, z), (uy, y), (uy, z)]
+        for total, (a, b) in zip(sums, [*terms, (uz, z)], strict=True):
+            to.put(to.add(to.times(a, b), to.get(total)), total)
+    rest = [to.constant(0.0)] * (-len(sums) % LANES)
+    found = [*map(to.get, sums), *rest]
+    for i in range(0, len(found), LANES):
+        to.store(to.sums(found[i : i + LANES]), out.at(i))
+
+
 @inner
 def principal_frame(
-    dx: Array, dy: Array, dz: Array, w: Array, n: int, A: Array, Q: Array, frame: Array
+    cloud: Array, n: int, A: Array, Q: Array, plane: Array, sums: Array, frame: Array
 ) -> bool:
     """Write the robust principal axes of n weighted points, centred on their mean.
 
@@ -63,11 +91,13 @@ def principal_frame(
 
     Parameters
     ----------
-    dx, dy, dz, w : (>= n,) float64
+    cloud : (CLOUD_ROWS, >= n) float64
         Points relative to the origin of the frame, and their weights.
     n : int
-        Number of points.
+        Number of points, a multiple of LANES.
     A, Q : (3, 3) float64
+        Scratch.
+    plane, sums : (>= 5,), (>= 10 + LANES,) float64
         Scratch.
     frame : (3, 3) float64
         Rows t1 (largest spread), t2, n: right-handed, n of either sign.
@@ -77,37 +107,18 @@ def principal_frame(
     bool
         False if the points lie on a line or in one place.
     """
-    nx = ny = nz = height = scale = 0.0
+    for i in range(5):
+        plane[i] = 0.0
     for _ in range(ROUNDS + 1):
-        s = sx = sy = sz = 0.0
-        sxx = sxy = sxz = syy = syz = szz = 0.0
-        for i in range(n):
-            x = dx[i]
-            y = dy[i]
-            z = dz[i]
-            d = x * nx + y * ny + z * nz - height
-            u = w[i] / (1.0 + d * d * scale)
-            s += u
-            sx += u * x
-            sy += u * y
-            sz += u * z
-            sxx += u * x * x
-            sxy += u * x * y
-            sxz += u * x * z
-            syy += u * y * y
-            syz += u * y * z
-            szz += u * z * z
+        _sum_spread(cloud, n, plane, sums)
+        s = sums[0]
         if not s > 0.0:
             return False
-        mx = sx / s
-        my = sy / s
-        mz = sz / s
-        A[0, 0] = sxx / s - mx * mx
-        A[1, 1] = syy / s - my * my
-        A[2, 2] = szz / s - mz * mz
-        A[0, 1] = A[1, 0] = sxy / s - mx * my
-        A[0, 2] = A[2, 0] = sxz / s - mx * mz
-        A[1, 2] = A[2, 1] = syz / s - my * mz
+        k = 4
+        for i in range(3):
+            for j in range(i, 3):
+                A[i, j] = A[j, i] = sums[k] / s - (sums[1 + i] / s) * (sums[1 + j] / s)
+                k += 1
         symmetric_axes(A, Q)
         low = 0
         high = 0
@@ -121,13 +132,13 @@ def principal_frame(
         middle = 3 - low - high
         if not A[middle, middle] > COLLINEAR * A[high, high]:
             return False
-        nx = Q[0, low]
-        ny = Q[1, low]
-        nz = Q[2, low]
-        height = mx * nx + my * ny + mz * nz
+        plane[3] = 0.0
+        for i in range(3):
+            plane[i] = Q[i, low]
+            plane[3] += sums[1 + i] / s * Q[i, low]
         if not A[low, low] > 1e-24 * A[high, high]:
             break
-        scale = 1.0 / A[low, low]
+        plane[4] = 1.0 / A[low, low]
     for i in range(3):
         frame[0, i] = Q[i, high]
         frame[2, i] = Q[i, low]

@@ -100,33 +100,35 @@ def gather(
     points: Array,
     runs: IntArray,
     count: int,
-    qx: float,
-    qy: float,
-    qz: float,
+    query: Array,
     reach: float,
-    scale: float,
-    local: Array,
+    radius: float,
+    cloud: Array,
 ) -> int:
-    """Collect the points within `reach` of q, relative to q and multiplied by `scale`.
+    """Collect the points within `reach` of a query, relative to it, in units of the radius.
 
     Returns
     -------
     int
-        Their number n; ``local[0:3, :n]`` holds the coordinates, ``local[3, :n]`` the squared
-        scaled distances.
+        Their number n; ``cloud[0:3, :n]`` holds the coordinates, ``cloud[3, :n]`` the squared
+        distances.
     """
     n = 0
     limit = reach * reach
+    scale = 1.0 / radius
+    qx = query[0]
+    qy = query[1]
+    qz = query[2]
     for r in range(count):
         for i in range(runs[r, 0], runs[r, 1]):
             x = points[i, 0] - qx
             y = points[i, 1] - qy
             z = points[i, 2] - qz
             d = x * x + y * y + z * z
-            local[0, n] = x * scale
-            local[1, n] = y * scale
-            local[2, n] = z * scale
-            local[3, n] = d * scale * scale
+            cloud[0, n] = x * scale
+            cloud[1, n] = y * scale
+            cloud[2, n] = z * scale
+            cloud[3, n] = d * scale * scale
             if d <= limit:
                 n += 1
     return n
@@ -134,18 +136,19 @@ def gather(
 
 @inner
 def gather_listed(
-    points: Array, members: IntArray, qx: float, qy: float, qz: float, scale: float, local: Array
+    points: Array, members: IntArray, query: Array, radius: float, cloud: Array
 ) -> int:
     """Collect the listed points as `gather` does; returns their number."""
+    scale = 1.0 / radius
     for j in range(len(members)):
         i = members[j]
-        x = (points[i, 0] - qx) * scale
-        y = (points[i, 1] - qy) * scale
-        z = (points[i, 2] - qz) * scale
-        local[0, j] = x
-        local[1, j] = y
-        local[2, j] = z
-        local[3, j] = x * x + y * y + z * z
+        x = (points[i, 0] - query[0]) * scale
+        y = (points[i, 1] - query[1]) * scale
+        z = (points[i, 2] - query[2]) * scale
+        cloud[0, j] = x
+        cloud[1, j] = y
+        cloud[2, j] = z
+        cloud[3, j] = x * x + y * y + z * z
     return len(members)
 
 

@@ -2,207 +2,180 @@
 
 from __future__ import annotations
 
-from pdtheory.pointset.kernels.jit import Array, inner
+from typing import Any
 
-#: Points per block of the power tables, so that these stay in the nearer caches.
-BLOCK = 256
+from pdtheory.pointset.kernels.lanes import LANES, Lanes, Rows, emit
 
-
-@inner
-def table_rows(degree: int) -> int:
-    """Rows of the power tables, rounded up to whole tiles."""
-    return (2 * degree + 1 + 5) // 6 * 6
-
-
-@inner
-def _tile(X: Array, V: Array, a: int, b: int, m: int, out: Array) -> None:
-    """Add the 3 x 6 dot products of rows a.. of X and b.. of V to out[a + b, b]."""
-    s00 = s01 = s02 = s03 = s04 = s05 = 0.0
-    s10 = s11 = s12 = s13 = s14 = s15 = 0.0
-    s20 = s21 = s22 = s23 = s24 = s25 = 0.0
-    for i in range(m):
-        v0 = V[b, i]
-        v1 = V[b + 1, i]
-        v2 = V[b + 2, i]
-        v3 = V[b + 3, i]
-        v4 = V[b + 4, i]
-        v5 = V[b + 5, i]
-        x0 = X[a, i]
-        s00 += x0 * v0
-        s01 += x0 * v1
-        s02 += x0 * v2
-        s03 += x0 * v3
-        s04 += x0 * v4
-        s05 += x0 * v5
-        x1 = X[a + 1, i]
-        s10 += x1 * v0
-        s11 += x1 * v1
-        s12 += x1 * v2
-        s13 += x1 * v3
-        s14 += x1 * v4
-        s15 += x1 * v5
-        x2 = X[a + 2, i]
-        s20 += x2 * v0
-        s21 += x2 * v1
-        s22 += x2 * v2
-        s23 += x2 * v3
-        s24 += x2 * v4
-        s25 += x2 * v5
-    d = a + b
-    out[d, b] += s00
-    out[d + 1, b + 1] += s01
-    out[d + 2, b + 2] += s02
-    out[d + 3, b + 3] += s03
-    out[d + 4, b + 4] += s04
-    out[d + 5, b + 5] += s05
-    out[d + 1, b] += s10
-    out[d + 2, b + 1] += s11
-    out[d + 3, b + 2] += s12
-    out[d + 4, b + 3] += s13
-    out[d + 5, b + 4] += s14
-    out[d + 6, b + 5] += s15
-    out[d + 2, b] += s20
-    out[d + 3, b + 1] += s21
-    out[d + 4, b + 2] += s22
-    out[d + 5, b + 3] += s23
-    out[d + 6, b + 4] += s24
-    out[d + 7, b + 5] += s25
+#: Rows of a cloud: coordinates relative to the query and squared distance, in units of the radius;
+#: weights; coordinates in the local frame; residuals; products; weights of l1.
+DX, DY, DZ, SQUARED, WEIGHT, X, Y, Z, RESIDUAL, PRODUCT, REWEIGHT = range(11)
+CLOUD_ROWS = 11
+#: Most points whose powers are kept at a time, so that these stay in the nearest cache.
+BLOCK = 320
+#: Powers of x in a tile; those of y are as many as a vector has lanes.
+TALL = 3
 
 
-@inner
-def _multiply_up(x: Array, start: int, m: int, padded: int, rows: int, table: Array) -> None:
-    """Fill rows 1.. of `table` with row 0 times the powers of x; zeros behind the m points."""
-    for i in range(m, padded):
-        table[0, i] = 0.0
-    for row in range(1, rows):
-        for i in range(m):
-            table[row, i] = table[row - 1, i] * x[start + i]
-        for i in range(m, padded):
-            table[row, i] = 0.0
+def cube_rows(degree: int) -> int:
+    """Powers of x^3 that moments up to twice the degree need, one to spare."""
+    return (2 * degree + TALL) // TALL + 1
 
 
-@inner
-def _add_products(X: Array, V: Array, m: int, top: int, out: Array) -> None:
-    """Add the dot products of rows a of X and b of V to out[a + b, b] for a + b <= top."""
-    for a in range(0, top + 1, 3):
-        for b in range(0, top - a + 1, 6):
-            _tile(X, V, a, b, m, out)
-
-
-@inner
-def _clear(out: Array, top: int) -> None:
-    for i in range(top + 1):
-        for j in range(i + 1):
-            out[i, j] = 0.0
-
-
-@inner
-def block_length(n: int) -> int:
-    """Length of the blocks into which n points are divided evenly."""
-    blocks = max((n + BLOCK - 1) // BLOCK, 1)
-    return ((n + blocks - 1) // blocks + 7) // 8 * 8
-
-
-@inner
-def sum_moments(
-    x: Array, y: Array, w: Array, n: int, top: int, X: Array, V: Array, out: Array
+@emit
+def sum_products(
+    to: Lanes, cloud: Rows, weights: Any, n: Any, top: Any, cubes: Rows, columns: Rows, out: Rows
 ) -> None:
-    """Sum w x^a y^b over n points for all a + b <= top into out[a + b, b].
+    """Sum w x^a y^b over n points for all a + b <= top into out[a, b].
 
     Parameters
     ----------
-    x, y, w : (>= n,) float64
-        Centred coordinates and weights.
+    cloud : (CLOUD_ROWS, >= n) float64
+        Rows X and Y hold the coordinates; row number `weights` holds w.
     n, top : int
-        Number of points and largest total degree.
-    X, V : (rows, > BLOCK) float64
-        Scratch for the powers, at least ``table_rows(K)`` rows for ``2 K >= top``.
-    out : (>= top + 8, >= top + 8) float64
-        The sums; entries beyond `top` are scratch.
+        Number of points, a multiple of LANES, and largest total degree.
+    cubes : (>= cube_rows, >= BLOCK) float64
+        Scratch for 1, x^3, x^6, ...
+    columns : (LANES + 1, >= BLOCK) float64
+        Scratch for w y^b, LANES of them at a time, and y^LANES.
+    out : (>= top + 4, >= top + LANES + 1) float64
+        The sums; entries with a + b > top are scratch.
     """
-    _clear(out, top)
-    length = block_length(n)
-    rows = (top + 6) // 6 * 6
-    for start in range(0, n, length):
-        m = min(length, n - start)
-        padded = (m + 7) // 8 * 8
-        for i in range(m):
-            X[0, i] = 1.0
-            V[0, i] = w[start + i]
-        _multiply_up(x, start, m, padded, rows, X)
-        _multiply_up(y, start, m, padded, rows, V)
-        _add_products(X, V, padded, top, out)
+    with to.count(0, to.plus(top, TALL)) as a, to.count(0, to.plus(top, LANES), LANES) as b:
+        to.store(to.constant(0.0), out.at(a, b))
+    blocks = to.greatest(to.div(to.plus(n, BLOCK - 1), BLOCK), 1)
+    vectors = to.div(to.plus(n, LANES - 1), LANES)
+    length = to.mul(to.div(to.minus(to.plus(vectors, blocks), 1), blocks), LANES)
+    with to.count(0, blocks) as block:
+        start = to.mul(block, length)
+        stop = to.least(length, to.minus(n, start))
+        _fill_powers(to, cloud, weights, start, stop, top, cubes, columns)
+        with to.count(0, to.plus(top, 1), LANES) as b:
+            left = to.minus(top, b)
+            tiles = to.plus(to.div(left, TALL), 1)
+            wide = to.div(to.greatest(to.plus(left, TALL - LANES // 2), 0), TALL)
+            with to.count(0, wide) as tile:
+                _tile(to, cloud, start, stop, cubes, columns, tile, b, LANES, out)
+            with to.count(wide, tiles) as tile:
+                _tile(to, cloud, start, stop, cubes, columns, tile, b, LANES // 2, out)
+            with to.builder.if_then(to.builder.icmp_signed(">=", left, to.integer(LANES))):
+                _raise_columns(to, stop, columns)
 
 
-@inner
-def sum_normal_equations(
-    x: Array,
-    y: Array,
-    w: Array,
-    z: Array,
-    n: int,
-    degree: int,
-    X: Array,
-    V: Array,
-    moments: Array,
-    heights: Array,
+def _fill_powers(
+    to: Lanes,
+    cloud: Rows,
+    weights: Any,
+    start: Any,
+    stop: Any,
+    top: Any,
+    cubes: Rows,
+    columns: Rows,
 ) -> None:
-    """Sum w x^a y^b to degree 2 K into `moments` and w z x^a y^b to degree K into `heights`."""
-    _clear(moments, 2 * degree)
-    _clear(heights, degree)
-    length = block_length(n)
-    rows = table_rows(degree)
-    low_rows = (degree + 6) // 6 * 6
-    for start in range(0, n, length):
-        m = min(length, n - start)
-        padded = (m + 7) // 8 * 8
-        for i in range(m):
-            X[0, i] = 1.0
-            V[0, i] = w[start + i]
-        _multiply_up(x, start, m, padded, rows, X)
-        _multiply_up(y, start, m, padded, rows, V)
-        _add_products(X, V, padded, 2 * degree, moments)
-        for i in range(m):
-            V[0, i] = w[start + i] * z[start + i]
-        _multiply_up(y, start, m, padded, low_rows, V)
-        _add_products(X, V, padded, degree, heights)
+    """Write the powers of x^3 and the first LANES columns w y^b."""
+    with to.count(0, stop, LANES) as i:
+        at = to.plus(start, i)
+        x = to.load(cloud.at(X, at))
+        cube = to.times(to.times(x, x), x)
+        power = to.variable(to.constant(1.0))
+        with to.count(0, to.plus(to.div(top, TALL), 1)) as row:
+            value = to.get(power)
+            to.store(value, cubes.at(row, i))
+            to.put(to.times(value, cube), power)
+        y = to.load(cloud.at(Y, at))
+        square = to.times(y, y)
+        even = to.load(cloud.at(weights, at))
+        odd = to.times(even, y)
+        for row in range(0, LANES, 2):
+            to.store(even, columns.at(row, i))
+            to.store(odd, columns.at(row + 1, i))
+            even, odd = to.times(even, square), to.times(odd, square)
+        last = square
+        for _ in range(LANES.bit_length() - 2):
+            last = to.times(last, last)
+        to.store(last, columns.at(LANES, i))
 
 
-@inner
-def subtract_polynomial(
-    x: Array, y: Array, z: Array, n: int, degree: int, c: Array, X: Array, line: Array, out: Array
+def _raise_columns(to: Lanes, stop: Any, columns: Rows) -> None:
+    """Multiply all columns by y^LANES."""
+    with to.count(0, stop, LANES) as i:
+        factor = to.load(columns.at(LANES, i))
+        for row in range(LANES):
+            at = columns.at(row, i)
+            to.store(to.times(to.load(at), factor), at)
+
+
+def _tile(
+    to: Lanes,
+    cloud: Rows,
+    start: Any,
+    stop: Any,
+    cubes: Rows,
+    columns: Rows,
+    tile: Any,
+    b: Any,
+    width: int,
+    out: Rows,
 ) -> None:
-    """Write z - sum c_ab x^a y^b for n points; `c` has the coefficients by descending degree."""
-    length = block_length(n)
-    for start in range(0, n, length):
-        m = min(length, n - start)
-        for i in range(m):
-            X[0, i] = 1.0
-            line[i] = 0.0
-        for row in range(1, degree + 1):
-            for i in range(m):
-                X[row, i] = X[row - 1, i] * x[start + i]
-        for b in range(degree, -1, -1):
-            # c_ab stands at (K - d)(K + d + 3) / 2 + b with d = a + b.
-            a = 0
-            f0 = c[(degree - b) * (degree + b + 3) // 2 + b]
-            for i in range(m):
-                line[i] = line[i] * y[start + i] + f0
-            a = 1
-            while a + 3 <= degree - b:
-                d = a + b
-                f0 = c[(degree - d) * (degree + d + 3) // 2 + b]
-                f1 = c[(degree - d - 1) * (degree + d + 4) // 2 + b]
-                f2 = c[(degree - d - 2) * (degree + d + 5) // 2 + b]
-                f3 = c[(degree - d - 3) * (degree + d + 6) // 2 + b]
-                for i in range(m):
-                    line[i] += f0 * X[a, i] + f1 * X[a + 1, i] + f2 * X[a + 2, i] + f3 * X[a + 3, i]
-                a += 4
-            while a <= degree - b:
-                d = a + b
-                f0 = c[(degree - d) * (degree + d + 3) // 2 + b]
-                for i in range(m):
-                    line[i] += f0 * X[a, i]
-                a += 1
-        for i in range(m):
-            out[start + i] = z[start + i] - line[i]
+    """Add the dot products of TALL powers of x with `width` columns."""
+    sums = [[to.variable(to.constant(0.0)) for _ in range(width)] for _ in range(TALL)]
+    with to.count(0, stop, LANES) as i:
+        x = to.load(cloud.at(X, to.plus(start, i)))
+        powers = [to.load(cubes.at(tile, i))]
+        while len(powers) < TALL:
+            powers.append(to.times(powers[-1], x))
+        for column in range(width):
+            value = to.load(columns.at(column, i))
+            for power, row in zip(powers, sums, strict=True):
+                to.put(to.add(to.times(power, value), to.get(row[column])), row[column])
+    rest = [to.constant(0.0)] * (LANES - width)
+    for offset, row in enumerate(sums):
+        at = out.at(to.plus(to.mul(tile, TALL), offset), b)
+        to.store(to.add(to.load(at), to.sums([*map(to.get, row), *rest])), at)
+
+
+@emit
+def subtract_polynomial(to: Lanes, cloud: Rows, n: Any, degree: Any, horner: Rows) -> None:
+    """Write z - sum c_ab x^a y^b to the row RESIDUAL.
+
+    Parameters
+    ----------
+    cloud : (CLOUD_ROWS, >= n) float64
+        The points.
+    n : int
+        Number of points: at least LANES^2, or the cloud is as wide as that.
+    degree : int
+        Degree of the polynomial.
+    horner : (coefficient_count,) float64
+        Coefficients by descending b and, for each b, by descending a.
+    """
+    group = LANES
+    with to.count(0, n, group * LANES) as first:
+        # The last group overlaps the one before.
+        start = to.greatest(to.least(first, to.minus(n, group * LANES)), 0)
+        at = [to.plus(start, g * LANES) for g in range(group)]
+        x = [to.load(cloud.at(X, i)) for i in at]
+        y = [to.load(cloud.at(Y, i)) for i in at]
+        outer = [to.variable(to.constant(0.0)) for _ in at]
+        inner = [to.variable(to.constant(0.0)) for _ in at]
+        next_one = to.variable(to.integer(0))
+        with to.count(0, to.plus(degree, 1)) as row:
+            for g in range(group):
+                to.put(to.constant(0.0), inner[g])
+            with to.count(0, to.plus(row, 1)) as a:
+                c = to.spread(to.get(horner.at(to.plus(to.get(next_one), a))))
+                for g in range(group):
+                    to.put(to.add(to.times(to.get(inner[g]), x[g]), c), inner[g])
+            to.put(to.plus(to.get(next_one), row, 1), next_one)
+            for g in range(group):
+                to.put(to.add(to.times(to.get(outer[g]), y[g]), to.get(inner[g])), outer[g])
+        for g in range(group):
+            z = to.load(cloud.at(Z, at[g]))
+            to.store(to.subtract(z, to.get(outer[g])), cloud.at(RESIDUAL, at[g]))
+
+
+@emit
+def multiply_rows(to: Lanes, cloud: Rows, first: Any, second: Any, n: Any, out: Any) -> None:
+    """Write the products of two rows of the cloud to another."""
+    with to.count(0, n, LANES) as i:
+        product = to.times(to.load(cloud.at(first, i)), to.load(cloud.at(second, i)))
+        to.store(product, cloud.at(out, i))

@@ -8,16 +8,25 @@ that h has no zero, or that h' has none and h is monotone. Intervals where neith
 
 from __future__ import annotations
 
+from math import factorial, pi
 from typing import Any
 
 import numpy as np
 
 from pdtheory.pointset.kernels.jit import Array, inner
+from pdtheory.pointset.kernels.lanes import LANES, Lanes, Rows, emit
+from pdtheory.pointset.kernels.tables import SAMPLES
 
-#: Sample intervals on the half circle.
-SAMPLES = 64
 #: Largest number of halvings; below that width two zeros count as a double one.
 DEPTH = 18
+#: Most rounds of Newton steps and bisections, and the relative step at which they end.
+ROUNDS, LAST_STEP = 100, 2e-16
+#: Rows of a table of brackets: the angle, the ends of the interval that holds it, h rising (1) or
+#: falling (-1), then g, g'' and the cosine and sine of the angle; from COEFFICIENTS on, real and
+#: imaginary parts of phi_n in turn.
+ANGLE, LOW, HIGH, RISING, VALUE, CURVATURE, COSINE, SINE, COEFFICIENTS = range(9)
+#: Terms of the Taylor series of sine and cosine up to a quarter turn.
+_TERMS = 12
 
 
 @inner
@@ -39,50 +48,36 @@ def evaluate(re: Array, im: Array, order: int, theta: float) -> tuple[float, flo
     return first, second
 
 
-@inner
-def value(re: Array, im: Array, order: int, theta: float) -> float:
-    """Return g(theta)."""
-    c1 = np.cos(theta)
-    s1 = np.sin(theta)
-    c2 = c1 * c1 - s1 * s1
-    s2 = 2.0 * c1 * s1
-    c = c1 if order % 2 else 1.0
-    s = s1 if order % 2 else 0.0
-    total = 0.0
-    for j in range(order // 2 + 1):
-        total += 2.0 * (re[j] * c - im[j] * s)
-        c, s = c * c2 - s * s2, s * c2 + c * s2
-    return total if order % 2 else total - re[0]
+@emit
+def _sample(
+    to: Lanes, re: Rows, im: Rows, order: Any, cosines: Rows, sines: Rows, samples: Rows
+) -> None:
+    """Write h and h' at SAMPLES angles to the rows of `samples`."""
+    width = 4
+    parity = to.minus(order, to.mul(to.div(order, 2), 2))
+    with to.count(0, SAMPLES, width * LANES) as first:
+        at = [to.plus(first, v * LANES) for v in range(width)]
+        h = [to.variable(to.constant(0.0)) for _ in at]
+        d = [to.variable(to.constant(0.0)) for _ in at]
+        with to.count(0, to.plus(to.div(order, 2), 1)) as j:
+            n = to.plus(j, j, parity)
+            real = to.builder.sitofp(n, to.real(0.0).type)
+            p = to.times(to.times(to.get(re.at(j)), real), to.real(-2.0))
+            q = to.times(to.times(to.get(im.at(j)), real), to.real(-2.0))
+            dp, dq = to.spread(to.times(p, real)), to.spread(to.times(q, real))
+            p, q = to.spread(p), to.spread(q)
+            for v in range(width):
+                c, s = to.load(cosines.at(n, at[v])), to.load(sines.at(n, at[v]))
+                to.put(to.add(to.times(q, c), to.add(to.times(p, s), to.get(h[v]))), h[v])
+                slope = to.subtract(to.get(d[v]), to.times(dq, s))
+                to.put(to.add(to.times(dp, c), slope), d[v])
+        for v in range(width):
+            to.store(to.get(h[v]), samples.at(0, at[v]))
+            to.store(to.get(d[v]), samples.at(1, at[v]))
 
 
 @inner
-def _polish(
-    re: Array, im: Array, order: int, low: float, high: float, h_low: float, h_high: float
-) -> float:
-    """Return the zero of h in [low, high], where h changes sign, by safeguarded Newton steps."""
-    theta = low + (high - low) * abs(h_low) / (abs(h_low) + abs(h_high))
-    rising = h_high > h_low
-    for _ in range(100):
-        h, slope = evaluate(re, im, order, theta)
-        if h == 0.0:
-            break
-        if (h < 0.0) == rising:
-            low = theta
-        else:
-            high = theta
-        step = -h / slope if slope != 0.0 else np.inf
-        guess = theta + step
-        if not low <= guess <= high:
-            guess = 0.5 * (low + high)
-        done = abs(guess - theta) <= 2e-16 * (1.0 + abs(theta))
-        theta = guess
-        if done:
-            break
-    return theta
-
-
-@inner
-def critical_angles(
+def bracket_angles(
     re: Array,
     im: Array,
     order: int,
@@ -90,10 +85,11 @@ def critical_angles(
     sines: Array,
     samples: Array,
     stack: Array,
-    angle: Array,
-    kind: Any,
+    table: Array,
+    kind: Array,
+    begin: int,
 ) -> int:
-    """Find all critical angles of g on [0, pi).
+    """Find intervals that hold the critical angles of g on [0, pi), one each.
 
     Parameters
     ----------
@@ -106,12 +102,14 @@ def critical_angles(
         cos(n theta_j) and sin(n theta_j) at theta_j = j pi / SAMPLES.
     samples : (2, SAMPLES + 1) float64
         Scratch for h and h'.
-    stack : (DEPTH + 2, 6) float64
+    stack : (DEPTH + 3, 6) float64
         Scratch for the halvings.
-    angle : (>= order,) float64
-        Receives the angles, ascending.
-    kind : (>= order,) int8
+    table : (rows, >= begin + order) float64
+        Receives the brackets from column `begin` on, by ascending angle.
+    kind : (>= begin + order,) float64
         Receives +1 (maximum), -1 (minimum) or 0 (inflection).
+    begin : int
+        The first column.
 
     Returns
     -------
@@ -123,24 +121,16 @@ def critical_angles(
     fourth = 0.0  # bound on |h'''|
     for j in range(order // 2 + 1):
         n = 2.0 * j + parity
-        size = 2.0 * np.hypot(re[j], im[j])
-        third += n**3 * size
-        fourth += n**4 * size
-    found = 0
+        size = 2.0 * np.sqrt(re[j] * re[j] + im[j] * im[j])
+        third += n * n * n * size
+        fourth += n * n * n * n * size
+    found = begin
     if third == 0.0:
         return 0
     width = np.pi / SAMPLES
     finest = width * 2.0 ** (-DEPTH)
-    for sample in range(SAMPLES + 1):
-        samples[0, sample] = 0.0
-        samples[1, sample] = 0.0
-    for j in range(order // 2 + 1):
-        n = 2 * j + parity
-        p = -2.0 * n * re[j]
-        q = -2.0 * n * im[j]
-        for sample in range(SAMPLES):
-            samples[0, sample] += p * sines[n, sample] + q * cosines[n, sample]
-            samples[1, sample] += n * (p * cosines[n, sample] - q * sines[n, sample])
+    clear = third * width * width / 8.0
+    _sample(re, im, order, cosines, sines, samples)
     # h(theta + pi) = (-1)^k h(theta), to the bit, so that a zero at 0 is found once.
     samples[0, SAMPLES] = -samples[0, 0] if parity else samples[0, 0]
     samples[1, SAMPLES] = -samples[1, 0] if parity else samples[1, 0]
@@ -148,7 +138,7 @@ def critical_angles(
         ha = samples[0, sample - 1]
         hb = samples[0, sample]
         change = (ha < 0.0) != (hb < 0.0)
-        if not change and sample < SAMPLES and min(abs(ha), abs(hb)) > third * width * width / 8.0:
+        if not change and sample < SAMPLES and min(abs(ha), abs(hb)) > clear:
             continue
         top = 0
         stack[0, 0] = (sample - 1) * width
@@ -193,19 +183,112 @@ def critical_angles(
                 continue
             if not change and monotone:
                 continue
-            merge = found > 0 and low - angle[found - 1] < 4.0 * finest
+            merge = found > begin and low - table[HIGH, found - 1] < 3.0 * finest
             if merge and not monotone:
                 # The same multiple zero, seen from the next interval.
                 if change:
-                    kind[found - 1] = 1 if negative_b else -1
+                    kind[found - 1] = 1.0 if negative_b else -1.0
                 continue
-            if found == order:
+            if found == begin + order:
                 break
+            table[ANGLE, found] = 0.5 * (low + high)
+            table[LOW, found] = low
+            table[HIGH, found] = high
+            table[RISING, found] = 0.0
+            kind[found] = 0.0
             if change:
-                angle[found] = _polish(re, im, order, low, high, ha, hb)
-                kind[found] = 1 if negative_b else -1
-            else:
-                angle[found] = 0.5 * (low + high)
-                kind[found] = 0
+                table[ANGLE, found] = low + d * abs(ha) / (abs(ha) + abs(hb))
+                table[RISING, found] = 1.0 if hb > ha else -1.0
+                kind[found] = 1.0 if negative_b else -1.0
+            for j in range(order // 2 + 1):
+                table[COEFFICIENTS + 2 * j, found] = re[j]
+                table[COEFFICIENTS + 2 * j + 1, found] = im[j]
             found += 1
-    return found
+    return found - begin
+
+
+@emit
+def polish(to: Lanes, table: Rows, order: Any, count: Any) -> None:
+    """Improve the first `count` angles of a table to rounding, and write g, g'' and sines there.
+
+    Newton steps, or bisections where a step leaves the interval; those with RISING 0 stay. Columns
+    behind `count`, up to a whole vector, are overwritten.
+    """
+    build = to.builder
+    parity = to.minus(order, to.mul(to.div(order, 2), 2))
+    odd = build.icmp_signed("==", parity, to.integer(1))
+    with to.count(0, count, LANES) as i:
+        theta = to.variable(to.load(table.at(ANGLE, i)))
+        low = to.variable(to.load(table.at(LOW, i)))
+        high = to.variable(to.load(table.at(HIGH, i)))
+        rising = to.load(table.at(RISING, i))
+        zero = to.constant(0.0)
+        # An angle that is done stays, whatever the others in its vector do.
+        moves = to.variable(build.fcmp_ordered("!=", rising, zero))
+        with to.count(0, ROUNDS), build.if_then(to.any(to.get(moves))):
+            at = to.get(theta)
+            _, first, second, _, _ = _terms(to, table, i, order, parity, odd, at)
+            ahead = build.fcmp_ordered("<", to.times(first, rising), zero)
+            to.put(build.select(ahead, at, to.get(low)), low)
+            to.put(build.select(ahead, to.get(high), at), high)
+            step = to.divide(first, second)
+            guess = to.subtract(at, step)
+            inside = build.and_(
+                build.fcmp_ordered("<=", to.get(low), guess),
+                build.fcmp_ordered("<=", guess, to.get(high)),
+            )
+            half = to.times(to.constant(0.5), to.add(to.get(low), to.get(high)))
+            guess = build.select(inside, guess, half)
+            moved = build.and_(to.get(moves), build.fcmp_ordered("!=", first, zero))
+            guess = build.select(moved, guess, at)
+            size = to.subtract(guess, at)
+            limit = to.times(to.constant(LAST_STEP), to.add(to.constant(1.0), at))
+            large = build.fcmp_ordered(">", to.times(size, size), to.times(limit, limit))
+            to.put(guess, theta)
+            to.put(build.and_(moved, large), moves)
+        at = to.get(theta)
+        value, _, second, c, s = _terms(to, table, i, order, parity, odd, at)
+        rows = (ANGLE, VALUE, CURVATURE, COSINE, SINE)
+        for row, result in zip(rows, (at, value, second, c, s), strict=True):
+            to.store(result, table.at(row, i))
+
+
+def _terms(
+    to: Lanes, table: Rows, i: Any, order: Any, parity: Any, odd: Any, theta: Any
+) -> tuple[Any, Any, Any, Any, Any]:
+    """g, g', g'', cosine and sine at LANES angles in [0, pi]."""
+    build = to.builder
+    # cos(theta) = -sin(x), sin(theta) = cos(x) with x = theta - pi / 2, pi in two parts.
+    x = to.subtract(theta, to.constant(pi / 2))
+    x = to.subtract(x, to.constant(6.123233995736766e-17))
+    square = to.times(x, x)
+    c, s = to.constant(0.0), to.constant(0.0)
+    for k in range(_TERMS - 1, -1, -1):
+        sign = -1.0 if k % 2 else 1.0
+        c = to.add(to.times(c, square), to.constant(-sign / factorial(2 * k + 1)))
+        s = to.add(to.times(s, square), to.constant(sign / factorial(2 * k)))
+    c1, s1 = to.times(c, x), s
+    c2 = to.subtract(to.times(c1, c1), to.times(s1, s1))
+    s2 = to.times(to.add(c1, c1), s1)
+    cn = to.variable(build.select(odd, c1, to.constant(1.0)))
+    sn = to.variable(build.select(odd, s1, to.constant(0.0)))
+    zero = to.constant(0.0)
+    value, first, second = (to.variable(zero) for _ in range(3))
+    with to.count(0, to.plus(to.div(order, 2), 1)) as j:
+        n = to.plus(j, j, parity)
+        real = to.spread(build.sitofp(n, to.real(0.0).type))
+        row = to.plus(COEFFICIENTS, j, j)
+        re, im = to.load(table.at(row, i)), to.load(table.at(to.plus(row, 1), i))
+        c, s = to.get(cn), to.get(sn)
+        even = to.subtract(to.times(re, c), to.times(im, s))
+        slope = to.times(real, to.add(to.times(re, s), to.times(im, c)))
+        # phi_0 counts once, the others together with their conjugates.
+        single = build.icmp_signed("==", n, to.integer(0))
+        weight = to.spread(build.select(single, to.real(1.0), to.real(2.0)))
+        to.put(to.add(to.times(weight, even), to.get(value)), value)
+        to.put(to.subtract(to.get(first), to.times(weight, slope)), first)
+        bend = to.times(to.times(real, real), even)
+        to.put(to.subtract(to.get(second), to.times(weight, bend)), second)
+        to.put(to.subtract(to.times(c, c2), to.times(s, s2)), cn)
+        to.put(to.add(to.times(s, c2), to.times(c, s2)), sn)
+    return to.get(value), to.get(first), to.get(second), c1, s1

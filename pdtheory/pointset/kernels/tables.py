@@ -1,91 +1,107 @@
-"""Constants of one run, and the scratch memory of one thread."""
+"""Constants of one run, and the working memory of one thread."""
 
 from __future__ import annotations
 
-from functools import lru_cache
+from functools import cache
 from math import comb, factorial, gamma
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from numba import types
-from numba.experimental import structref
 
 from pdtheory.conventions import frequencies
-from pdtheory.pointset.kernels.jit import Array, inner
-from pdtheory.pointset.kernels.moments import BLOCK, table_rows
-from pdtheory.pointset.kernels.regression import coefficient_count
-from pdtheory.pointset.kernels.roots import DEPTH, SAMPLES
+from pdtheory.pointset.kernels.cholesky import padded_columns, padded_rows
+from pdtheory.pointset.kernels.jit import Array
+from pdtheory.pointset.kernels.lanes import LANES
+from pdtheory.pointset.kernels.moments import BLOCK, cube_rows
+
+#: Sample intervals of the angles on the half circle.
+SAMPLES = 64
+#: Side of the tables of coefficients by powers of x (row) and y (column); above the largest degree.
+SIDE = 16
 
 
-class Tables(NamedTuple):
-    """Constants that depend on the degree only.
-
-    Attributes
-    ----------
-    real, imaginary : (K + 1, K // 2 + 1, K + 1) float64
-        phi_{k,n} = sum_b (real + i imaginary)[k, j, b] c_{k-b,b} with n = k mod 2 + 2 j.
-    binomial : (K + 1, K + 1) float64
-        Binomial coefficients.
-    factorial : (K + 1,) float64
-        k!.
-    full_disc : (K + 1,) float64
-        Smallest relative pivot of each degree for points that fill the disc evenly.
-    cosines, sines : (K + 1, SAMPLES + 1) float64
-        cos and sin of n theta_j, theta_j = j pi / SAMPLES.
-    """
-
-    real: Any
-    imaginary: Any
-    binomial: Any
-    factorial: Any
-    full_disc: Any
-    cosines: Any
-    sines: Any
+#: Largest degree, for which all memory is laid out.
+MAX_DEGREE = 14
+_COUNT = (MAX_DEGREE + 1) * (MAX_DEGREE + 2) // 2
+_ROWS, _COLUMNS = padded_rows(_COUNT) + 2, padded_columns(_COUNT)
+_LINE = 64  # bytes of a cache line, where vectors begin best
 
 
-@structref.register
-class _ScratchType(types.StructRef):
-    """The type of `Scratch` in compiled code: a reference, so that it costs nothing to pass on."""
+def layout(**shapes: tuple[int, ...]) -> np.dtype[Any]:
+    """Lay out arrays in one record; one pointer to it costs less to pass on than many arrays."""
+    offsets, end = [], 0
+    for shape in shapes.values():
+        offsets.append(end)
+        end += -(-8 * int(np.prod(shape)) // _LINE) * _LINE
+    formats = [("i8" if name == "offsets" else "f8", shape) for name, shape in shapes.items()]
+    return np.dtype(
+        {"names": list(shapes), "formats": formats, "offsets": offsets, "itemsize": end}
+    )
 
 
-class Scratch(structref.StructRefProxy):
-    """Working memory, reused from point to point; allocated by `make_scratch`."""
-
-    X: Any
-    V: Any
-    offsets: Any
-    moments: Any
-    heights: Any
-    G: Any
-    S: Any
-    c: Any
-    step: Any
-    diagonal: Any
-    pivots: Any
-    spare: Any
-    table: Any
-    middle: Any
-    square: Any
-    frame: Any
-    A: Any
-    Q: Any
-    line: Any
-    re: Any
-    im: Any
-    samples: Any
-    stack: Any
-    angle: Any
-    kind: Any
-    full_disc: Any
-    powers: Any
-    gradient: Any
-    spreads: Any
-    covariance: Any
-    found: Any
+def aligned(*shape: int) -> Array:
+    """Zeros that begin at a cache line."""
+    size = int(np.prod(shape))
+    memory = np.zeros(size + _LINE // 8)
+    start = -(memory.ctypes.data // 8) % (_LINE // 8)
+    return memory[start : start + size].reshape(shape)
 
 
-structref.define_proxy(Scratch, _ScratchType, list(Scratch.__annotations__))
+def make_record(layout: np.dtype[Any]) -> Any:
+    """Allocate a record of zeros that begins at a cache line."""
+    return aligned(layout.itemsize // 8).view(layout)[0]
+
+
+#: Constants of all degrees:
+#: real, imaginary: phi_{k,n} = sum_b (real + i imaginary)[k, j, b] c_{k-b,b}, n = k mod 2 + 2 j;
+#: binomial coefficients and factorials;
+#: full_disc: smallest relative pivot of each degree for points that fill the disc evenly;
+#: cosines, sines of n theta_j, theta_j = j pi / SAMPLES.
+TABLES = layout(
+    real=(MAX_DEGREE + 1, MAX_DEGREE // 2 + 1, MAX_DEGREE + 1),
+    imaginary=(MAX_DEGREE + 1, MAX_DEGREE // 2 + 1, MAX_DEGREE + 1),
+    binomial=(MAX_DEGREE + 1, MAX_DEGREE + 1),
+    factorial=(MAX_DEGREE + 1,),
+    full_disc=(MAX_DEGREE + 1,),
+    cosines=(MAX_DEGREE + 1, SAMPLES + LANES),
+    sines=(MAX_DEGREE + 1, SAMPLES + LANES),
+)
+#: Memory of one thread, reused from point to point.
+WORKSPACE = layout(
+    cubes=(cube_rows(MAX_DEGREE), BLOCK),
+    columns=(LANES + 1, BLOCK),
+    sums=(2 * MAX_DEGREE + 4, 2 * MAX_DEGREE + 2 * LANES),
+    heights=(2 * MAX_DEGREE + 4, 2 * MAX_DEGREE + 2 * LANES),
+    offsets=(_COLUMNS,),
+    G=(_ROWS, _COLUMNS),
+    S=(_ROWS, _COLUMNS),
+    X=(_ROWS, _COLUMNS),
+    diagonal=(_COLUMNS,),
+    pivots=(_COLUMNS,),
+    inverses=(_COLUMNS,),
+    spare=(_COLUMNS,),
+    c=(_COLUMNS,),
+    y=(_COLUMNS,),
+    v=(_COLUMNS,),
+    step=(_COLUMNS,),
+    horner=(_COLUMNS,),
+    table=(SIDE + 1, SIDE + LANES),
+    middle=(SIDE + 1, SIDE + LANES),
+    slope=(SIDE + 1, 2 * SIDE),
+    norms=(SIDE,),
+    frame=(3, 3),
+    A=(3, 3),
+    Q=(3, 3),
+    plane=(LANES,),
+    spread=(16 + LANES,),
+    V=(SIDE + 1, _COLUMNS),
+    Y=(_ROWS, 2 * SIDE),
+    U=(SIDE + LANES + 1, _COLUMNS),
+    C=(SIDE, SIDE + LANES),
+    powers=(2, SIDE),
+    gradient=(2, _COLUMNS),
+)
 
 
 def _full_disc_pivots(degree: int) -> npt.NDArray[np.float64]:
@@ -110,12 +126,11 @@ def _full_disc_pivots(degree: int) -> npt.NDArray[np.float64]:
     )
 
 
-@lru_cache(maxsize=16)
-def make_tables(degree: int) -> Tables:
-    """Build the constants for degree K = `degree`."""
-    real = np.zeros((degree + 1, degree // 2 + 1, degree + 1))
-    imaginary = np.zeros_like(real)
-    for k in range(degree + 1):
+@cache
+def make_tables() -> Any:
+    """Build the constants."""
+    tables = make_record(TABLES)
+    for k in range(MAX_DEGREE + 1):
         for b in range(k + 1):
             # cos^(k-b) sin^b as powers of u = e^{i theta}: exact integers over 2^k i^b.
             powers = [
@@ -128,57 +143,13 @@ def make_tables(degree: int) -> Tables:
             unit = (1, -1j, -1, 1j)[b % 4]
             for j, n in enumerate(frequencies(k)):
                 value = unit * powers[(k - n) // 2] / 2**k
-                real[k, j, b] = value.real
-                imaginary[k, j, b] = value.imag
-    binomial = np.array([[comb(i, j) for j in range(degree + 1)] for i in range(degree + 1)], float)
-    factorials = np.array([factorial(k) for k in range(degree + 1)], float)
-    angles = np.outer(np.arange(degree + 1), np.arange(SAMPLES + 1) * (np.pi / SAMPLES))
-    return Tables(
-        real,
-        imaginary,
-        binomial,
-        factorials,
-        _full_disc_pivots(degree),
-        np.cos(angles),
-        np.sin(angles),
-    )
-
-
-@inner
-def make_scratch(degree: int, full_disc: Array) -> Scratch:
-    """Allocate working memory for degree K = `degree` (at least 4)."""
-    n = coefficient_count(degree)
-    rows = table_rows(degree)
-    return Scratch(
-        np.empty((rows, BLOCK + 8)),
-        np.empty((rows, BLOCK + 8)),
-        np.empty(n, dtype=np.int64),
-        np.empty((2 * degree + 10, 2 * degree + 10)),
-        np.empty((2 * degree + 10, 2 * degree + 10)),
-        np.empty((n, n)),
-        np.empty((n, n)),
-        np.empty(n),
-        np.empty(n),
-        np.empty(n),
-        np.empty(n),
-        np.empty(n),
-        np.empty((degree + 1, degree + 1)),
-        np.empty((degree + 1, degree + 1)),
-        np.empty((degree + 2, degree + 2)),
-        np.empty((3, 3)),
-        np.empty((3, 3)),
-        np.empty((3, 3)),
-        np.empty(BLOCK),
-        np.empty(degree // 2 + 1),
-        np.empty(degree // 2 + 1),
-        np.empty((2, SAMPLES + 1)),
-        np.empty((DEPTH + 3, 6)),
-        np.empty(degree + 1),
-        np.empty(degree + 1, dtype=np.int8),
-        full_disc,
-        np.empty((2, degree + 1)),
-        np.empty((2, n)),
-        np.empty((max(degree + 1, 4), n)),
-        np.empty((degree + 1, degree + 1)),
-        np.empty((2 * degree, 5)),
-    )
+                tables["real"][k, j, b] = value.real
+                tables["imaginary"][k, j, b] = value.imag
+        for j in range(k + 1):
+            tables["binomial"][k, j] = comb(k, j)
+        tables["factorial"][k] = factorial(k)
+    tables["full_disc"][:] = _full_disc_pivots(MAX_DEGREE)
+    angles = np.outer(np.arange(MAX_DEGREE + 1), np.arange(SAMPLES + LANES) * (np.pi / SAMPLES))
+    tables["cosines"][:] = np.cos(angles)
+    tables["sines"][:] = np.sin(angles)
+    return tables

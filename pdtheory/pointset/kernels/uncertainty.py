@@ -1,211 +1,242 @@
-"""Standard deviations of coefficients, angles and eigenvalues that follow from the fit itself.
+"""Covariances of the terms of a jet that follow from the fit itself.
 
 The heights are taken to carry independent noise of one variance s^2. The weighted estimate
 c = G^-1 A^T W z then has the covariance s^2 G^-1 S G^-1 with S = A^T W^2 A, and
 sum w r^2 has the mean s^2 (sum w - tr G^-1 S), which gives s^2 from the residuals r.
+
+With G = L^T L and S = M^T M, the matrix X = M L^-1 gives the covariance of two coefficients e, f as
+the inner product of X L^-T e and X L^-T f, and tr G^-1 S as the sum of its squares.
 """
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
+from pdtheory.pointset.kernels.cholesky import PANEL, factor, fill_gram
+from pdtheory.pointset.kernels.fit import Fit
 from pdtheory.pointset.kernels.jit import Array, inner
-from pdtheory.pointset.kernels.regression import (
-    degree_start,
-    factor,
-    solve_transposed,
+from pdtheory.pointset.kernels.lanes import LANES, Lanes, Rows, emit
+from pdtheory.pointset.kernels.moments import (
+    PRODUCT,
+    RESIDUAL,
+    WEIGHT,
+    multiply_rows,
+    sum_products,
 )
+from pdtheory.pointset.kernels.regression import degree_start
+from pdtheory.pointset.kernels.tables import SIDE
+from pdtheory.pointset.kernels.tilting import add_product
 
 
-@inner
-def spread(L: Array, S: Array, s: int, n: int, diagonal: Array, pivots: Array) -> float:
-    """Replace S by X with G^-1 S G^-1 = (X L^-T)^T (X L^-T), for the trailing block from s.
+@emit
+def _solve_rows(
+    to: Lanes, V: Rows, count: Any, tops: Any, step: Any, L: Rows, inverses: Rows, out: Rows
+) -> float:
+    """Solve L^T y = v for rows v, PANEL at a time, and write y to the columns of `out`.
 
-    With S = M^T M this is X = M L^-1, a lower triangle.
+    Parameters
+    ----------
+    V : (>= count + PANEL, columns) float64
+        Right-hand sides in the rows 1..count; overwritten. Rows behind them are taken along.
+    count : int
+        Number of rows.
+    tops, step : int
+        The first PANEL rows have zeros behind index `tops`, a multiple of PANEL, the next behind
+        tops + step, and so on.
+    L, inverses
+        The factor, and its inverse pivots.
+    out : (> last top, > count + PANEL) float64
+        out[j, i] receives entry j of the solution for row i.
 
     Returns
     -------
     float
-        tr(G^-1 S), the squared Frobenius norm of X: the degrees of freedom the fit uses up,
-        counted with the weights.
+        Sum of the squares of all solutions.
     """
-    factor(S, n, diagonal, pivots)
+    total = to.variable(to.real(0.0))
+    groups = to.div(to.plus(count, PANEL - 1), PANEL)
+    with to.count(0, groups) as group:
+        line = [to.plus(to.mul(group, PANEL), 1 + r) for r in range(PANEL)]
+        panels = to.div(to.plus(tops, to.mul(group, step)), PANEL)
+        with to.count(0, panels) as panel:
+            top = to.mul(to.minus(panels, panel), PANEL)
+            row = [to.minus(top, p) for p in range(PANEL)]
+            scale = [to.get(inverses.at(j)) for j in row]
+            corner = [[to.get(L.at(row[q], row[p])) for q in range(p)] for p in range(PANEL)]
+            found: list[list[Any]] = []
+            squares = to.get(total)
+            for i in line:
+                known: list[Any] = []
+                for p in range(PANEL):
+                    value = to.get(V.at(i, row[p]))
+                    for q in range(p):
+                        value = to.subtract(value, to.times(known[q], corner[p][q]))
+                    value = to.times(value, scale[p])
+                    to.put(value, out.at(row[p], i))
+                    squares = to.add(to.times(value, value), squares)
+                    known.append(value)
+                found.append([to.spread(value) for value in known])
+            to.put(squares, total)
+            with to.count(0, to.minus(top, PANEL - 1), LANES) as k:
+                lines = [to.load(L.at(j, k)) for j in row]
+                for i, known in zip(line, found, strict=True):
+                    value = to.load(V.at(i, k))
+                    for f, part in zip(known, lines, strict=True):
+                        value = to.subtract(value, to.times(f, part))
+                    to.store(value, V.at(i, k))
+    return to.get(total)
+
+
+@emit
+def _combine(to: Lanes, Y: Rows, count: Any, last: Any, X: Rows, n: Any, out: Rows) -> None:
+    """Write sum_j Y[j, f] X[j, i], 1 <= j <= last, to out[f, i] for f in 1..count, i in 0..n.
+
+    X[j, i] is zero for i < j.
+    """
+    width = 2
+    with to.count(1, to.plus(count, 1), PANEL) as f, to.count(0, to.plus(n, 1), width * LANES) as i:
+        sums = [[to.variable(to.constant(0.0)) for _ in range(width)] for _ in range(PANEL)]
+        with to.count(1, to.plus(to.least(last, to.plus(i, width * LANES - 1)), 1)) as j:
+            parts = [to.load(X.at(j, to.plus(i, v * LANES))) for v in range(width)]
+            for r in range(PANEL):
+                y = to.spread(to.get(Y.at(j, to.plus(f, r))))
+                for v in range(width):
+                    to.put(to.add(to.times(y, parts[v]), to.get(sums[r][v])), sums[r][v])
+        for r in range(PANEL):
+            for v in range(width):
+                to.store(to.get(sums[r][v]), out.at(to.plus(f, r), to.plus(i, v * LANES)))
+
+
+@emit
+def _inner_products(to: Lanes, U: Rows, count: Any, n: Any, out: Rows) -> None:
+    """Write the inner products of the rows 1..count of U to out[i - 1, j - 1].
+
+    U has zeros in column 0, and behind column n to the end of the vector.
+    """
+    with to.count(1, to.plus(count, 1)) as i, to.count(0, count, LANES) as first:
+        sums = [to.variable(to.constant(0.0)) for _ in range(LANES)]
+        with to.count(0, to.plus(n, 1), LANES) as k:
+            own = to.load(U.at(i, k))
+            for j in range(LANES):
+                other = to.load(U.at(to.plus(first, 1 + j), k))
+                to.put(to.add(to.times(own, other), to.get(sums[j])), sums[j])
+        to.store(to.sums(list(map(to.get, sums))), out.at(to.minus(i, 1), first))
+
+
+@inner
+def _noise_of_l1(cloud: Array, n: int, used: int) -> float:
+    """Return the scale that stands for the noise in the covariance of an l1 fit.
+
+    That is 1 / (2 f(0)) with the density f of the noise, taken to be normal about zero, where its
+    standard deviation follows from the median of the absolute residuals. An l1 fit passes through
+    as many points as it has coefficients, so that many residuals are left out.
+    """
+    sizes = cloud[PRODUCT]
+    inside = 0
+    for i in range(n):
+        if cloud[WEIGHT, i] > 0.0:
+            sizes[inside] = abs(cloud[RESIDUAL, i])
+            inside += 1
+    if inside <= used:
+        return np.inf
+    ordered = np.sort(sizes[:inside])
+    return np.sqrt(np.pi / 2.0) * ordered[used + (inside - used) // 2] / 0.6744897501960817
+
+
+@inner
+def prepare_covariances(
+    cloud: Array, n: int, fit: Fit, robust: bool, tangent: bool, w: Any
+) -> float:
+    """Set up ``w.X`` and the gradient for `order_covariance`; returns the noise of the heights."""
+    top = fit.top
+    first = degree_start(top, fit.degree)
+    count = degree_start(top, 0)
+    if robust:
+        # The covariance of an l1 fit holds the Gram matrix of the weights before reweighting.
+        sum_products(cloud, WEIGHT, n, 2 * top, w.cubes, w.columns, w.sums)
+        fill_gram(w.sums, w.heights, top, w.offsets, w.G)
+        factor(w.G, count, w.diagonal, w.pivots, w.inverses)
+        for i in range(1, first):
+            w.inverses[i] = 0.0
+    multiply_rows(cloud, WEIGHT, WEIGHT, n, PRODUCT)
+    sum_products(cloud, PRODUCT, n, 2 * top, w.cubes, w.columns, w.sums)
+    fill_gram(w.sums, w.heights, top, w.offsets, w.S)
+    factor(w.S, count, w.step, w.y, w.spare)
+    rows = (count + PANEL - 1) // PANEL * PANEL
+    for i in range(1, rows + 1):
+        behind = rows + 1
+        if w.y[i] > 0.0:
+            behind = i + 1
+        else:
+            for j in range(1, rows + 1):
+                w.S[i, j] = 0.0
+        for j in range(behind, min(i + PANEL, rows + 1)):
+            w.S[i, j] = 0.0
+    for i in range(count + 1, rows + 1):
+        w.S[i, i] = 0.0
+    used = _solve_rows(w.S, count, PANEL, PANEL, w.G, w.inverses, w.X)
+    for i in range(top + 1):
+        w.powers[0, i] = 1.0 if i == 0 else -fit.cx * w.powers[0, i - 1]
+        w.powers[1, i] = 1.0 if i == 0 else -fit.cy * w.powers[1, i - 1]
+    if tangent:
+        for i in range(SIDE):
+            for j in range(SIDE):
+                w.slope[i, SIDE + j] = w.table[i, j]
+                w.middle[i, j] = 0.0
+        add_product(w.table, w.slope, top + 1, 1.0, w.middle)
     total = 0.0
-    for i in range(s, n):
-        if pivots[i] == 0.0:
-            for j in range(s, i + 1):
-                S[i, j] = 0.0
-            continue
-        j = i
-        while j - 3 >= s:
-            t0 = S[i, j] / L[j, j]
-            t1 = (S[i, j - 1] - t0 * L[j, j - 1]) / L[j - 1, j - 1]
-            t2 = (S[i, j - 2] - t0 * L[j, j - 2] - t1 * L[j - 1, j - 2]) / L[j - 2, j - 2]
-            t3 = S[i, j - 3] - t0 * L[j, j - 3] - t1 * L[j - 1, j - 3] - t2 * L[j - 2, j - 3]
-            t3 /= L[j - 3, j - 3]
-            for k in range(j - 3 - s):
-                S[i, s + k] -= (
-                    t0 * L[j, s + k]
-                    + t1 * L[j - 1, s + k]
-                    + t2 * L[j - 2, s + k]
-                    + t3 * L[j - 3, s + k]
-                )
-            S[i, j] = t0
-            S[i, j - 1] = t1
-            S[i, j - 2] = t2
-            S[i, j - 3] = t3
-            total += t0 * t0 + t1 * t1 + t2 * t2 + t3 * t3
-            j -= 4
-        while j >= s:
-            t0 = S[i, j] / L[j, j]
-            for k in range(s, j):
-                S[i, k] -= t0 * L[j, k]
-            S[i, j] = t0
-            total += t0 * t0
-            j -= 1
-    return total
+    squares = 0.0
+    for i in range(n):
+        total += cloud[WEIGHT, i]
+        squares += cloud[WEIGHT, i] * cloud[RESIDUAL, i] * cloud[RESIDUAL, i]
+    if robust:
+        return _noise_of_l1(cloud, n, count + 1 - first)
+    left = total - used
+    return np.sqrt(squares / left) if left > 0.0 else np.inf
 
 
 @inner
-def fill_shift_powers(cx: float, cy: float, top: int, powers: Array) -> None:
-    """Write the powers of -cx and -cy up to `top` to the two rows of `powers`."""
-    powers[0, 0] = powers[1, 0] = 1.0
-    for i in range(top):
-        powers[0, i + 1] = -cx * powers[0, i]
-        powers[1, i + 1] = -cy * powers[1, i]
+def spread_order(order: int, fit: Fit, tables: Any, w: Any) -> None:
+    """Write X L^-T e to the rows of ``w.U`` for the coefficients x^(k-b) y^b about the origin.
 
-
-@inner
-def coefficient_spread(
-    X: Array,
-    L: Array,
-    s: int,
-    n: int,
-    top: int,
-    a: int,
-    b: int,
-    binomial: Array,
-    powers: Array,
-    work: Array,
-    out: Array,
-) -> None:
-    """Write X L^-T e to `out`, e taking the coefficients to that of x^a y^b about the origin.
-
-    Its inner products are the covariances of such coefficients for unit noise.
-
-    Parameters
-    ----------
-    X, L : (n, n) float64
-        From `spread` and `factor`.
-    s, n, top : int
-        First index in use, size, degree that the indices belong to.
-    a, b : int
-        The powers.
-    binomial : (top + 1, top + 1) float64
-        Binomial coefficients.
-    powers : (2, top + 1) float64
-        From `fill_shift_powers`.
-    work, out : (n,) float64
-        Scratch, and the result in s..n - 1.
+    Their inner products are the covariances for unit noise.
     """
-    order = a + b
-    end = degree_start(top, order) + order + 1
-    for i in range(s, end):
-        work[i] = 0.0
-    for d in range(order, top + 1):
-        row = degree_start(top, d)
-        if row < s:
-            continue
-        for j in range(b, d - a + 1):
-            work[row + j] = (
-                binomial[d - j, a] * binomial[j, b] * powers[0, d - j - a] * powers[1, j - b]
-            )
-    solve_transposed(L, s, end, work)
-    for i in range(s, n):
-        t = 0.0
-        for j in range(min(i + 1, end) - s):
-            t += X[i, s + j] * work[s + j]
-        out[i] = t
-
-
-@inner
-def order_covariance(
-    X: Array,
-    L: Array,
-    s: int,
-    n: int,
-    top: int,
-    order: int,
-    binomial: Array,
-    powers: Array,
-    square: Array,
-    gradient: Array,
-    work: Array,
-    spreads: Array,
-    covariance: Array,
-) -> None:
-    """Write the covariance of the coefficients of one order at the origin, for unit noise.
-
-    The frame is tangent to the fitted surface, so an error (a, b) of the gradient also turns it,
-    which changes the heights h by -(a d/dx + b d/dy)(h^2) / 2.
-
-    Parameters
-    ----------
-    X, L, s, n, top, binomial, powers, work
-        As for `coefficient_spread`.
-    order : int
-        The order k.
-    square : (> top + 1, > top + 1) float64
-        Coefficients of h^2 by powers of x and y; zeros if the frame is not that of the fit.
-    gradient : (2, n) float64
-        Spreads of the coefficients of x and y.
-    spreads : (>= order + 1, n) float64
-        Scratch.
-    covariance : (>= order + 1, >= order + 1) float64
-        Receives the covariance of c_{k-b,b}, b = 0..k.
-    """
+    top = fit.top
+    end = degree_start(top, order) + order
+    last = (end + PANEL - 1) // PANEL * PANEL
     for b in range(order + 1):
         a = order - b
-        coefficient_spread(X, L, s, n, top, a, b, binomial, powers, work, spreads[b])
-        by_x = -0.5 * (a + 1) * square[a + 1, b]
-        by_y = -0.5 * (b + 1) * square[a, b + 1]
-        for i in range(n - s):
-            spreads[b, s + i] += by_x * gradient[0, s + i] + by_y * gradient[1, s + i]
-    for b1 in range(order + 1):
-        for b2 in range(b1 + 1):
-            t = 0.0
-            for i in range(n - s):
-                t += spreads[b1, s + i] * spreads[b2, s + i]
-            covariance[b1, b2] = t
-            covariance[b2, b1] = t
+        for i in range(last + 1):
+            w.V[1 + b, i] = 0.0
+        for d in range(order, fit.degree + 1):
+            row = degree_start(top, d)
+            for j in range(b, d - a + 1):
+                factors = tables.binomial[d - j, a] * tables.binomial[j, b]
+                w.V[1 + b, row + j] = factors * w.powers[0, d - j - a] * w.powers[1, j - b]
+    _solve_rows(w.V, order + 1, last, 0, w.G, w.inverses, w.Y)
+    _combine(w.Y, order + 1, last, w.X, degree_start(top, 0), w.U)
 
 
 @inner
-def direction_variances(
-    covariance: Array, order: int, theta: float, work: Array
-) -> tuple[float, float]:
-    """Return the variances of g'(theta) and g(theta) for unit noise.
+def order_covariance(order: int, fit: Fit, tangent: bool, tables: Any, w: Any) -> None:
+    """Write the covariance of c_{k-b,b} about the origin, b = 0..k, for unit noise to ``w.C``.
 
-    `work` is scratch with four rows of at least ``order + 2`` entries.
+    The frame is tangent to the fitted surface, so an error (a, b) of the gradient also turns it,
+    which changes the heights h by -(a d/dx + b d/dy)(h^2) / 2. The spreads of the gradient are in
+    ``w.gradient``.
     """
-    c = np.cos(theta)
-    s = np.sin(theta)
-    work[0, 0] = work[1, 0] = 1.0
-    for i in range(order + 1):
-        work[0, i + 1] = work[0, i] * c
-        work[1, i + 1] = work[1, i] * s
-    for b in range(order + 1):
-        work[2, b] = work[0, order - b] * work[1, b]
-        slope = 0.0
-        if b < order:
-            slope -= (order - b) * work[0, order - b - 1] * work[1, b + 1]
-        if b > 0:
-            slope += b * work[0, order - b + 1] * work[1, b - 1]
-        work[3, b] = slope
-    of_slope = 0.0
-    of_value = 0.0
-    for b1 in range(order + 1):
-        for b2 in range(order + 1):
-            of_slope += work[3, b1] * covariance[b1, b2] * work[3, b2]
-            of_value += work[2, b1] * covariance[b1, b2] * work[2, b2]
-    return max(of_slope, 0.0), max(of_value, 0.0)
+    spread_order(order, fit, tables, w)
+    count = degree_start(fit.top, 0)
+    if tangent:
+        for b in range(order + 1):
+            a = order - b
+            by_x = -0.5 * (a + 1) * w.middle[a + 1, b]
+            by_y = -0.5 * (b + 1) * w.middle[a, b + 1]
+            for i in range(count + 1):
+                w.U[1 + b, i] += by_x * w.gradient[0, i] + by_y * w.gradient[1, i]
+    for b in range(1, order + 2):
+        for i in range(count + 1, count + 1 + LANES):
+            w.U[b, i] = 0.0
+    _inner_products(w.U, order + 1, count, w.C)

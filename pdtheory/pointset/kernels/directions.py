@@ -1,0 +1,240 @@
+"""The principal directions of one chunk of jets."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from pdtheory.pointset.kernels.jit import Array, IntArray, inner, kernel
+from pdtheory.pointset.kernels.lanes import LANES
+from pdtheory.pointset.kernels.results import Directions, Jets
+from pdtheory.pointset.kernels.roots import (
+    ANGLE,
+    COEFFICIENTS,
+    COSINE,
+    CURVATURE,
+    DEPTH,
+    SINE,
+    VALUE,
+    bracket_angles,
+    polish,
+)
+from pdtheory.pointset.kernels.tables import SAMPLES, SIDE, layout
+
+#: Points whose angles are polished together.
+BATCH = 32
+
+
+#: Memory of one thread.
+BENCH = layout(
+    re=(SIDE,),
+    im=(SIDE,),
+    samples=(2, SAMPLES + LANES),
+    stack=(DEPTH + 3, 6),
+    table=(COEFFICIENTS + SIDE + 2, BATCH * SIDE + LANES),
+    kind=(BATCH * SIDE,),
+    found=(BATCH,),
+    largest=(BATCH,),
+    powers=(SIDE,),
+    slopes=(SIDE,),
+)
+
+
+@inner
+def _deviations(
+    covariance: Array, entry: int, order: int, c: float, s: float, bench: Any
+) -> tuple[float, float]:
+    """Return the standard deviations of g' and g at an angle, given its cosine and sine."""
+    power = 1.0
+    for b in range(order + 1):
+        bench.powers[b] = power
+        power *= s
+    power = 1.0
+    for b in range(order, -1, -1):
+        bench.powers[b] *= power
+        power *= c
+    for b in range(order + 1):
+        # d/dtheta of c^(k-b) s^b, in the same products.
+        slope = 0.0
+        if b < order:
+            slope -= (order - b) * bench.powers[b + 1]
+        if b > 0:
+            slope += b * bench.powers[b - 1]
+        bench.slopes[b] = slope
+    of_slope = 0.0
+    of_value = 0.0
+    for b1 in range(order + 1):
+        slope = 0.0
+        value = 0.0
+        for b2 in range(order + 1):
+            slope += covariance[entry] * bench.slopes[b2]
+            value += covariance[entry] * bench.powers[b2]
+            entry += 1
+        of_slope += slope * bench.slopes[b1]
+        of_value += value * bench.powers[b1]
+    return np.sqrt(max(of_slope, 0.0)), np.sqrt(max(of_value, 0.0))
+
+
+@inner
+def _scale_term(phi: Any, column: int, order: int, unit: float, bench: Any) -> tuple[float, float]:
+    """Write the coefficients of one order in units of the largest; returns its size and the sum."""
+    largest = 0.0
+    swing = 0.0
+    for j in range(order // 2 + 1):
+        re = phi[column + j].real * unit
+        im = phi[column + j].imag * unit
+        bench.re[j] = re
+        bench.im[j] = im
+        if 2 * j + order % 2 > 0:
+            size = np.sqrt(re * re + im * im)
+            swing += size
+            largest = max(largest, size)
+    if largest > 0.0:
+        for j in range(order // 2 + 1):
+            bench.re[j] /= largest
+            bench.im[j] /= largest
+    return largest, swing
+
+
+@inner
+def _store(
+    q: int,
+    first: int,
+    count: int,
+    largest: float,
+    order: int,
+    entry: int,
+    radius: float,
+    factorial: float,
+    jets: Jets,
+    bench: Any,
+    row: int,
+    out: Directions,
+) -> None:
+    """Write the directions of one point: those of the half circle, then the opposite ones."""
+    unit = factorial / radius ** (order - 1)
+    mirror = -1.0 if order % 2 else 1.0
+    table = bench.table
+    frame = jets.frames[q]
+    uncertain = jets.covariance.shape[1] > 0
+    turn_c = np.cos(jets.turn[q])
+    turn_s = np.sin(jets.turn[q])
+    for i in range(count):
+        at = first + i
+        c = table[COSINE, at]
+        s = table[SINE, at]
+        g = table[VALUE, at] * largest
+        angle_std = np.nan
+        g_std = np.nan
+        if uncertain:
+            slope, g_std = _deviations(
+                jets.covariance[q],
+                entry,
+                order,
+                c * turn_c - s * turn_s,
+                s * turn_c + c * turn_s,
+                bench,
+            )
+            curvature = abs(table[CURVATURE, at]) * largest
+            angle_std = slope / curvature if curvature > 0.0 else np.inf
+        for half in range(2):
+            to = row + i + half * count
+            sign = mirror if half else 1.0
+            way = -1.0 if half else 1.0
+            out.angle[to] = table[ANGLE, at] + half * np.pi
+            for axis in range(3):
+                out.vector[to, axis] = way * (c * frame[0, axis] + s * frame[1, axis])
+            out.eigenvalue[to] = sign * g * unit
+            out.strength[to] = abs(g)
+            out.kind[to] = np.int8(sign * bench.kind[at])
+            out.angle_std[to] = angle_std
+            out.eigenvalue_std[to] = g_std * unit
+
+
+@kernel
+def find_directions(
+    jets: Jets,
+    radii: Array,
+    orders: IntArray,
+    base: IntArray,
+    tables: Any,
+    bench: Any,
+    stop: Any,
+    out: Directions,
+) -> None:
+    """Find the directions of a chunk of jets.
+
+    Parameters
+    ----------
+    jets : Jets
+        From `fit_chunk`.
+    radii : (Q,) float64
+        Radius at each point.
+    orders, base : (J,) int64
+        Orders, ascending, and the first row of each in the output.
+    tables, bench : records of TABLES and BENCH
+        Constants and working memory.
+    stop : (1,) uint8
+        Set to non-zero by another thread to end the work.
+    out : Directions
+        The results.
+    """
+    entry = 0
+    for j in range(len(orders)):
+        order = orders[j]
+        column = 0
+        for k in range(order):
+            column += k // 2 + 1
+        row = base[j]
+        for start in range(0, len(radii), BATCH):
+            if stop[0] != 0:
+                return
+            end = min(start + BATCH, len(radii))
+            total = 0
+            for q in range(start, end):
+                bench.found[q - start] = 0
+                if not jets.degree[q] >= order:
+                    continue
+                scale = radii[q] ** (order - 1)
+                largest, swing = _scale_term(jets.phi[q], column, order, scale, bench)
+                bench.largest[q - start] = largest
+                if swing <= jets.blur[q, j]:
+                    out.isotropic[j, q] = True
+                    continue
+                found = bracket_angles(
+                    bench.re,
+                    bench.im,
+                    order,
+                    tables.cosines,
+                    tables.sines,
+                    bench.samples,
+                    bench.stack,
+                    bench.table,
+                    bench.kind,
+                    total,
+                )
+                bench.found[q - start] = found
+                total += found
+            polish(bench.table, order, total)
+            total = 0
+            for q in range(start, end):
+                found = int(bench.found[q - start])
+                _store(
+                    q,
+                    total,
+                    found,
+                    bench.largest[q - start],
+                    order,
+                    entry,
+                    radii[q],
+                    tables.factorial[order],
+                    jets,
+                    bench,
+                    row,
+                    out,
+                )
+                out.counts[j, q] = 2 * found
+                row += 2 * found
+                total += found
+        entry += (order + 1) * (order + 1)

@@ -1,0 +1,209 @@
+"""Code for several doubles at a time, written straight to LLVM.
+
+Numba turns a plain loop into one over vectors half as wide as those of the machine, and finishes it
+point by point. The few kernels that take most of the time are therefore written here instead: each
+is a Python function that receives a `Lanes` and its arguments, and emits the code. That also spares
+Numba their analysis, which is most of the time of a first compilation.
+"""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from typing import Any
+
+from llvmlite import binding, ir  # type: ignore[import-untyped]
+from numba import types
+from numba.core import cgutils
+from numba.extending import intrinsic
+
+#: Doubles in a vector.
+LANES = 8 if binding.get_host_cpu_features().get("avx512f") else 4
+
+_REAL = ir.DoubleType()
+_VECTOR = ir.VectorType(_REAL, LANES)
+_INT = ir.IntType(64)
+_INDEX = ir.IntType(32)
+# A product and a sum may be fused; nothing else is taken liberties with.
+_FLAGS = ("contract",)
+
+
+class Rows:
+    """A C-contiguous array of doubles or 64-bit integers with one or two axes."""
+
+    def __init__(self, lanes: Lanes, kind: Any, value: Any) -> None:
+        array = lanes.context.make_array(kind)(lanes.context, lanes.builder, value)
+        self._lanes = lanes
+        self._data = array.data
+        self.stride = cgutils.unpack_tuple(lanes.builder, array.shape)[-1]
+
+    def at(self, row: Any, column: Any = None) -> Any:
+        """Address of an entry."""
+        lanes = self._lanes
+        if column is not None:
+            row = lanes.plus(lanes.builder.mul(lanes.integer(row), self.stride), column)
+        return lanes.builder.gep(self._data, [lanes.integer(row)])
+
+
+class Lanes:
+    """Writes instructions behind those written so far."""
+
+    def __init__(self, context: Any, builder: Any) -> None:
+        self.context = context
+        self.builder = builder
+
+    def integer(self, value: Any) -> Any:
+        """A constant, or the value itself if it is none."""
+        return ir.Constant(_INT, value) if isinstance(value, int) else value
+
+    def plus(self, *values: Any) -> Any:
+        """Sum of integers."""
+        total = self.integer(values[0])
+        for value in values[1:]:
+            total = self.builder.add(total, self.integer(value))
+        return total
+
+    def minus(self, a: Any, b: Any) -> Any:
+        """Difference of integers."""
+        return self.builder.sub(self.integer(a), self.integer(b))
+
+    def mul(self, a: Any, b: Any) -> Any:
+        """Product of integers."""
+        return self.builder.mul(self.integer(a), self.integer(b))
+
+    def div(self, a: Any, b: Any) -> Any:
+        """Quotient of integers, cut towards zero."""
+        return self.builder.sdiv(self.integer(a), self.integer(b))
+
+    def least(self, a: Any, b: Any) -> Any:
+        """The smaller of two integers."""
+        a, b = self.integer(a), self.integer(b)
+        return self.builder.select(self.builder.icmp_signed("<", a, b), a, b)
+
+    def greatest(self, a: Any, b: Any) -> Any:
+        """The larger of two integers."""
+        a, b = self.integer(a), self.integer(b)
+        return self.builder.select(self.builder.icmp_signed(">", a, b), a, b)
+
+    def real(self, value: float) -> Any:
+        """A constant."""
+        return ir.Constant(_REAL, value)
+
+    def constant(self, value: float) -> Any:
+        """A constant in all lanes."""
+        return ir.Constant(_VECTOR, [value] * LANES)
+
+    def spread(self, value: Any) -> Any:
+        """One number in all lanes."""
+        empty = ir.Constant(_VECTOR, ir.Undefined)
+        one = self.builder.insert_element(empty, value, ir.Constant(_INDEX, 0))
+        mask = ir.Constant(ir.VectorType(_INDEX, LANES), [0] * LANES)
+        return self.builder.shuffle_vector(one, empty, mask)
+
+    def get(self, address: Any) -> Any:
+        """The number at an address."""
+        return self.builder.load(address)
+
+    def put(self, value: Any, address: Any) -> None:
+        """Write one number."""
+        self.builder.store(value, address)
+
+    def load(self, address: Any) -> Any:
+        """A vector from an address on."""
+        return self.builder.load(self.builder.bitcast(address, _VECTOR.as_pointer()), align=8)
+
+    def store(self, value: Any, address: Any) -> None:
+        """Write a vector from an address on."""
+        self.builder.store(value, self.builder.bitcast(address, _VECTOR.as_pointer()), align=8)
+
+    def times(self, a: Any, b: Any) -> Any:
+        """Product."""
+        return self.builder.fmul(a, b, flags=_FLAGS)
+
+    def add(self, a: Any, b: Any) -> Any:
+        """Sum."""
+        return self.builder.fadd(a, b, flags=_FLAGS)
+
+    def subtract(self, a: Any, b: Any) -> Any:
+        """Difference."""
+        return self.builder.fsub(a, b, flags=_FLAGS)
+
+    def divide(self, a: Any, b: Any) -> Any:
+        """Quotient."""
+        return self.builder.fdiv(a, b, flags=_FLAGS)
+
+    def root(self, value: Any) -> Any:
+        """Square root of a number."""
+        sqrt = self.builder.module.declare_intrinsic("llvm.sqrt", [_REAL])
+        return self.builder.call(sqrt, [value])
+
+    def sums(self, vectors: Sequence[Any]) -> Any:
+        """One vector with the sums over the lanes of each of LANES vectors."""
+        index = ir.VectorType(_INDEX, LANES)
+        even = ir.Constant(index, list(range(0, 2 * LANES, 2)))
+        odd = ir.Constant(index, list(range(1, 2 * LANES, 2)))
+        while len(vectors) > 1:
+            vectors = [
+                self.add(
+                    self.builder.shuffle_vector(u, v, even), self.builder.shuffle_vector(u, v, odd)
+                )
+                for u, v in zip(vectors[::2], vectors[1::2], strict=True)
+            ]
+        return vectors[0]
+
+    def any(self, mask: Any) -> Any:
+        """Whether a truth value holds in some lane."""
+        bits = self.builder.bitcast(mask, ir.IntType(LANES))
+        return self.builder.icmp_unsigned("!=", bits, ir.Constant(ir.IntType(LANES), 0))
+
+    def lane(self, vector: Any, number: int) -> Any:
+        """One lane of a vector."""
+        return self.builder.extract_element(vector, ir.Constant(_INDEX, number))
+
+    def variable(self, value: Any) -> Any:
+        """A place for a value that changes in a loop, to be used with `get` and `put`."""
+        return cgutils.alloca_once_value(self.builder, value)
+
+    @contextmanager
+    def count(self, start: Any, stop: Any, step: int = 1) -> Iterator[Any]:
+        """Loop over ``range(start, stop, step)``."""
+        with cgutils.for_range_slice(
+            self.builder, self.integer(start), self.integer(stop), self.integer(step), _INT
+        ) as (index, _):
+            yield index
+
+
+def emit(write: Callable[..., Any]) -> Any:
+    """Turn a function that writes code into one that kernels can call.
+
+    `write` receives a `Lanes`, then a `Rows` for every array and an LLVM value for every number.
+    The kernel gets back nothing, or the number (double) that `write` returns.
+    """
+    names = list(inspect.signature(write).parameters)[1:]
+    result = types.void if write.__annotations__.get("return") == "None" else types.float64
+
+    def typer(context: Any, *kinds: Any) -> Any:
+        def generate(context: Any, builder: Any, signature: Any, values: Any) -> Any:
+            lanes = Lanes(context, builder)
+            arguments = [
+                Rows(lanes, kind, value) if isinstance(kind, types.Array) else value
+                for kind, value in zip(signature.args, values, strict=True)
+            ]
+            returned = write(lanes, *arguments)
+            return context.get_dummy_value() if returned is None else returned
+
+        kinds = tuple(kind if isinstance(kind, types.Array) else _number(kind) for kind in kinds)
+        return result(*kinds), generate
+
+    # Numba wants to see the names of the arguments.
+    typer.__signature__ = inspect.Signature(  # type: ignore[attr-defined]
+        [inspect.Parameter(n, inspect.Parameter.POSITIONAL_OR_KEYWORD) for n in ("context", *names)]
+    )
+    typer.__name__ = write.__name__
+    typer.__doc__ = write.__doc__
+    return intrinsic(typer)
+
+
+def _number(kind: Any) -> Any:
+    return types.int64 if isinstance(kind, (types.Integer, types.Boolean)) else types.float64

@@ -1,0 +1,126 @@
+"""What the kernels hand over: jets, directions, and both together."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+
+class Jets(NamedTuple):
+    """Fits of Q points, J orders.
+
+    Attributes
+    ----------
+    frames : (Q, 3, 3) float64
+        Frames handed out.
+    degree, neighbours, status : (Q,) int64
+        Degree used, points within the radius, flags.
+    residual, noise, condition : (Q,) float64
+        Root mean square residual and standard deviation of the heights that the error bars rest on,
+        in world units; smallest relative pivot.
+    phi : (Q, M) complex128
+        All Wavejets coefficients in these frames, in world units.
+    turn : (Q,) float64
+        Angle of t1 in the frame of the fit.
+    blur : (Q, J) float64
+        Size that rounding may give to the coefficients of an order, in units of the radius.
+    covariance : (Q, sum of (k + 1)^2) float64
+        For each order the covariance of c_{k-b,b} in the frame of the fit, in units of the radius.
+    """
+
+    frames: Any
+    degree: Any
+    neighbours: Any
+    residual: Any
+    noise: Any
+    condition: Any
+    status: Any
+    phi: Any
+    turn: Any
+    blur: Any
+    covariance: Any
+
+
+def make_jets(size: int, orders: Any, columns: int, uncertainty: bool) -> Jets:
+    """Allocate results for `size` points."""
+    entries = int(((orders + 1) ** 2).sum()) if uncertainty else 0
+    return Jets(
+        np.full((size, 3, 3), np.nan),
+        np.zeros(size, np.int64),
+        np.zeros(size, np.int64),
+        np.full(size, np.nan),
+        np.full(size, np.nan),
+        np.full(size, np.nan),
+        np.zeros(size, np.int64),
+        np.full((size, columns), np.nan, np.complex128),
+        np.empty(size),
+        np.empty((size, len(orders))),
+        np.empty((size, entries)),
+    )
+
+
+class Directions(NamedTuple):
+    """Directions of Q points, J orders, M rows for all of them together.
+
+    Those of order j of all points follow one another from row ``base[j]``.
+    """
+
+    counts: Any
+    isotropic: Any
+    angle: Any
+    vector: Any
+    eigenvalue: Any
+    strength: Any
+    kind: Any
+    angle_std: Any
+    eigenvalue_std: Any
+
+
+def make_directions(size: int, orders: Any) -> Directions:
+    """Allocate results for `size` points."""
+    rows = size * int(2 * orders.sum())
+    return Directions(
+        np.zeros((len(orders), size), np.int64),
+        np.zeros((len(orders), size), np.bool_),
+        np.empty(rows),
+        np.empty((rows, 3)),
+        np.empty(rows),
+        np.empty(rows),
+        np.empty(rows, np.int8),
+        np.empty(rows),
+        np.empty(rows),
+    )
+
+
+class Output(NamedTuple):
+    """Results of one chunk: the first fields of `Jets`, then those of `Directions`."""
+
+    frames: Any
+    degree: Any
+    neighbours: Any
+    residual: Any
+    noise: Any
+    condition: Any
+    status: Any
+    phi: Any
+    counts: Any
+    isotropic: Any
+    angle: Any
+    vector: Any
+    eigenvalue: Any
+    strength: Any
+    kind: Any
+    angle_std: Any
+    eigenvalue_std: Any
+
+
+def join(jets: Jets, directions: Directions) -> Output:
+    """Put both together."""
+    fields = {**jets._asdict(), **directions._asdict()}
+    return Output(**{name: fields[name] for name in Output._fields})
+
+
+def make_output(size: int, orders: Any, columns: int) -> Output:
+    """Allocate results for `size` points."""
+    return join(make_jets(size, orders, columns, False), make_directions(size, orders))

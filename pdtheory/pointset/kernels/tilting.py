@@ -1,0 +1,187 @@
+"""Jets moved: the polynomial of a fit about another point, and in a turned frame."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from pdtheory.pointset.kernels.frames import tilt
+from pdtheory.pointset.kernels.jit import Array, inner
+from pdtheory.pointset.kernels.lanes import LANES, Lanes, Rows, emit
+from pdtheory.pointset.kernels.regression import degree_start
+from pdtheory.pointset.kernels.tables import SIDE
+
+#: Effect of a remaining tilt that is tolerated, as a fraction of the residual and of the height.
+TILT_OF_RESIDUAL, TILT_OF_HEIGHT = 0.3, 1e-13
+
+
+@inner
+def _spread_out(c: Array, degree: int, table: Array) -> None:
+    """Write coefficients to a table by powers."""
+    for a in range(SIDE):
+        for b in range(SIDE):
+            table[a, b] = 0.0
+    row = 1
+    for d in range(degree, -1, -1):
+        for b in range(d + 1):
+            table[d - b, b] = c[row]
+            row += 1
+
+
+@inner
+def shift(c: Array, degree: int, cx: float, cy: float, table: Array, turned: Array) -> None:
+    """Re-expand sum c_ab (x - cx)^a (y - cy)^b about the origin, in place and exactly.
+
+    Parameters
+    ----------
+    c : (> coefficient count,) float64
+        Coefficients, by descending degree from index 1 on.
+    degree : int
+        The degree.
+    cx, cy : float
+        The old centre.
+    table, turned : (SIDE, >= SIDE) float64
+        Scratch.
+    """
+    _spread_out(c, degree, table)
+    for low in range(degree):
+        for a in range(degree - 1, low - 1, -1):
+            for b in range(SIDE):
+                table[a, b] -= cx * table[a + 1, b]
+    for b in range(SIDE):
+        for a in range(SIDE):
+            turned[b, a] = table[a, b]
+    for low in range(degree):
+        for b in range(degree - 1, low - 1, -1):
+            for a in range(SIDE):
+                turned[b, a] -= cy * turned[b + 1, a]
+    row = 1
+    for d in range(degree, -1, -1):
+        for b in range(d + 1):
+            c[row] = turned[b, d - b]
+            row += 1
+
+
+@emit
+def add_product(
+    to: Lanes, first: Rows, second: Rows, degree: Any, factor: Any, target: Rows
+) -> None:
+    """Add `factor` times the product of two polynomials, up to a degree, to a third.
+
+    Parameters
+    ----------
+    first : (SIDE, >= SIDE) float64
+        Coefficients by powers.
+    second : (SIDE, 2 SIDE) float64
+        The same, SIDE columns further right, with zeros before.
+    target : (SIDE, >= SIDE) float64
+        Receives the sum; entries above the degree are scratch.
+    """
+    with to.count(0, to.plus(degree, 1)) as i:
+        parts = range(SIDE // LANES)
+        sums = [to.variable(to.constant(0.0)) for _ in parts]
+        with to.count(0, to.plus(i, 1)) as i1, to.count(0, to.plus(to.minus(degree, i), 1)) as j1:
+            f = to.spread(to.get(first.at(i1, j1)))
+            row = to.minus(i, i1)
+            for part in parts:
+                column = to.minus(SIDE + part * LANES, j1)
+                term = to.times(f, to.load(second.at(row, column)))
+                to.put(to.add(to.get(sums[part]), term), sums[part])
+        for part in parts:
+            at = target.at(i, part * LANES)
+            value = to.times(to.get(sums[part]), to.spread(factor))
+            to.store(to.add(to.load(at), value), at)
+
+
+@inner
+def _turn(
+    source: Array, target: Array, degree: int, step: float, a: float, b: float, slope: Array
+) -> None:
+    """Add `step` times the rate of change of the jet `source`, when its frame turns, to `target`.
+
+    Turning the frame about the origin towards the unit direction (a, b) changes the heights h at
+    the rate -h (a d/dx + b d/dy) h - (a x + b y).
+    """
+    for i in range(degree + 1):
+        for j in range(degree + 1):
+            slope[i, SIDE + j] = a * (i + 1) * source[i + 1, j] + b * (j + 1) * source[i, j + 1]
+    add_product(source, slope, degree, -step, target)
+    target[1, 0] -= step * a
+    target[0, 1] -= step * b
+
+
+@inner
+def untilt(c: Array, degree: int, frame: Array, table: Array, middle: Array, slope: Array) -> None:
+    """Turn frame and jet so that the gradient at the origin vanishes.
+
+    The jet follows the rotation by one midpoint step, so the error is of third order in the slope.
+
+    Parameters
+    ----------
+    c, degree
+        The jet.
+    frame : (3, 3) float64
+        The frame.
+    table, middle : (SIDE + 1, >= SIDE + 1) float64
+        Scratch; `table` receives the turned jet by powers.
+    slope : (SIDE + 1, 2 SIDE) float64
+        Scratch whose left half is zero.
+    """
+    last = degree_start(degree, 0)
+    size = np.hypot(c[last - 2], c[last - 1])
+    _spread_out(c, degree, table)
+    if size == 0.0:
+        return
+    a = c[last - 2] / size
+    b = c[last - 1] / size
+    tilt(frame, c[last - 2], c[last - 1])
+    angle = np.arctan(size)
+    _spread_out(c, degree, middle)
+    _turn(table, middle, degree, 0.5 * angle, a, b, slope)
+    _clip(middle, degree)
+    _turn(middle, table, degree, angle, a, b, slope)
+    _clip(table, degree)
+    table[1, 0] = 0.0
+    table[0, 1] = 0.0
+    row = 1
+    for d in range(degree, -1, -1):
+        for j in range(d + 1):
+            c[row] = table[d - j, j]
+            row += 1
+
+
+@inner
+def _clip(table: Array, degree: int) -> None:
+    """Set the entries above the degree to zero."""
+    for i in range(SIDE):
+        for j in range(max(degree + 1 - i, 0), SIDE):
+            table[i, j] = 0.0
+
+
+@inner
+def tilt_matters(c: Array, degree: int, residual: float, norms: Array) -> bool:
+    """Whether the gradient at the origin disturbs the fit by more than is tolerated.
+
+    A tilt adds (a d/dx + b d/dy)(h^2) / 2 to the heights, of which the terms above the degree
+    cannot be undone after the fit, nor the effects of third order; both are bounded at half the
+    radius.
+    """
+    last = degree_start(degree, 0)
+    slope = np.hypot(c[last - 2], c[last - 1])
+    height = 0.0
+    scale = 1.0
+    for d in range(degree + 1):
+        start = degree_start(degree, d)
+        total = 0.0
+        for i in range(start, start + d + 1):
+            total += abs(c[i])
+        norms[d] = total * scale
+        height += norms[d]
+        scale *= 0.5
+    beyond = 0.0
+    for d1 in range(2, degree + 1):
+        for d2 in range(max(2, degree + 2 - d1), degree + 1):
+            beyond += (d1 + d2) * norms[d1] * norms[d2]
+    effect = slope * (beyond + slope * slope * height)
+    return effect > max(TILT_OF_RESIDUAL * residual, TILT_OF_HEIGHT * height)
