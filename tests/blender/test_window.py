@@ -111,6 +111,14 @@ def test_the_window_lives_while_a_hundred_thousand_vertices_are_computed(blender
     assert report["seconds"] < 20.0
 
 
+def test_eevee_renders_surface_and_strokes(blender):
+    report, folder = play(blender, "eevee")
+    assert report["strokes"] == ["monkey directions"]
+    red, green, blue = np.moveaxis(picture(folder / "eevee.png"), -1, 0)
+    assert (blue > np.maximum(red, green) + 0.08).mean() > 0.002
+    assert (green > np.maximum(red, blue) + 0.04).mean() > 0.002
+
+
 def test_escape_ends_it_within_a_second(blender):
     report, _ = play(blender, "escape")
     assert report["escape_seconds"] < 1.0

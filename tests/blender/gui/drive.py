@@ -194,6 +194,22 @@ def scenario_compute():
     shot("redo")
 
 
+def scenario_eevee():
+    prepare(40)
+    bpy.ops.principal_directions.compute()
+    report["strokes"] = strokes()
+    scene = bpy.context.scene
+    names = {item.identifier for item in scene.render.bl_rna.properties["engine"].enum_items}
+    scene.render.engine = "BLENDER_EEVEE_NEXT" if "BLENDER_EEVEE_NEXT" in names else "BLENDER_EEVEE"
+    bpy.ops.object.light_add(type="SUN", rotation=(0.5, 0.2, 0.0))
+    bpy.ops.object.camera_add(location=(0.0, 0.0, 6.0))
+    scene.camera = bpy.context.object
+    scene.render.resolution_x = scene.render.resolution_y = 256
+    scene.render.filepath = str(FOLDER / "eevee.png")
+    bpy.ops.render.render(write_still=True)
+    yield 0.1
+
+
 def scenario_large():
     prepare_large()
     report["vertices"] = len(bpy.context.object.data.vertices)
