@@ -136,13 +136,15 @@ class Strokes:
         do not lie on top of each other.
         """
         keep = np.isin(self._column("kind"), [int(kind) for kind in KINDS[choice.kind]])
-        keep &= self._column("spacing") >= self.data.spots.spacing_for(choice.strokes)
+        # The attributes are in single precision, the spots are not.
+        spots, point = self.data.spots, self.data.attributes["point"].astype(np.int64)
+        keep &= spots.spacing[point] >= spots.spacing_for(choice.strokes)
         keep &= self._column("strength") >= choice.least_strength
         # Without error bars nothing is known against a direction.
         keep &= ~(self._column("angle_std") > choice.largest_uncertainty)
         if not choice.orders:
             return np.zeros(len(self.data), dtype=bool)
-        turn = np.floor(self._column("turn") * len(choice.orders)).astype(np.int64)
+        turn = np.floor(spots.turn[point] * len(choice.orders)).astype(np.int64)
         return keep & (self._column("order") == np.array(choice.orders)[turn])
 
     def lines(self, rows: npt.NDArray[np.bool_], choice: Choice) -> FloatArray:
