@@ -274,6 +274,7 @@ def _write(
         with progress_bar("Rendering", quiet=quiet) as report:
             draw_field(field, surface, picture, orders=(2, 3), kind="max", progress=report)
     except MissingDependencyError as error:
-        console.print(f"  No picture: {error}")
+        # An extra in square brackets is no markup.
+        console.print(f"  No picture: {error}", markup=False)
     else:
         console.print(f"  Wrote {picture}")

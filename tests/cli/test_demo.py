@@ -25,14 +25,14 @@ def small(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.usefixtures("small")
 def test_demo_without_blender(cli: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def absent(*_: object, **__: object) -> None:
-        raise MissingDependencyError("Blender's module is not installed.")
+        raise MissingDependencyError("bpy is absent: pip install 'pdtheory[blender]'.")
 
     monkeypatch.setattr("pdtheory.blender.draw_field", absent)
     result = cli("demo", "--out", tmp_path / "new" / "demo")
     assert result.exit_code == 0, result.output
     assert "Proved" in result.stdout
     assert "3,000 of 3,000 points answered." in result.stdout
-    assert "No picture: Blender's module is not installed." in result.stdout
+    assert "No picture: bpy is absent: pip install 'pdtheory[blender]'." in result.stdout
     field = DirectionField.load(tmp_path / "new" / "demo" / "field.npz")
     assert field.orders == demo.ORDERS
     assert (tmp_path / "new" / "demo" / "field.ply").stat().st_size > 100_000
