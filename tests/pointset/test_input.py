@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 
@@ -125,3 +128,19 @@ def test_layouts_and_types_of_arrays_change_nothing(cloud):
         estimate_directions(whole, radius=300, degree=4).phi,
         estimate_directions(whole.astype(float), radius=300, degree=4).phi,
     )
+
+
+def test_missing_numba_is_one_sentence_and_fields_are_read_without_it():
+    code = """
+import sys
+sys.modules["numba"] = None
+from pdtheory.errors import MissingDependencyError
+from pdtheory.pointset import DirectionField, PointCloud, load_parts
+try:
+    from pdtheory.pointset import estimate_directions
+except MissingDependencyError as error:
+    print(error)
+"""
+    out = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert out.stdout.startswith("estimating directions needs Numba")
+    assert len(out.stdout.splitlines()) == 1
