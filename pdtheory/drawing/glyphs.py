@@ -37,11 +37,11 @@ class GlyphData:
     position : (M, 3) float64
         Where each direction stands.
     attributes : mapping of str to (M,) or (M, 3) array
-        What is drawn, in single precision and finite: `direction` and `surface_normal` (unit vectors), `order`, `kind`, `point`
-        (index in the field), `eigenvalue`, `eigenvalue_std`, `strength`, `angle_std`,
-        `relative_strength` (by the 90 % quantile of its order, at most 1.5), `bend` (half the
-        normal curvature in the direction, 1/length), `spacing` and `turn` of the point
-        (:mod:`pdtheory.drawing.thinning`).
+        What is drawn, in single precision and finite: `direction` and `surface_normal` (unit
+        vectors), `order`, `kind`, `point` (index in the field), `eigenvalue`, `eigenvalue_std`,
+        `strength`, `angle_std`, `relative_strength` (by the 90 % quantile of its order, at most
+        1.5), `bend` (half the normal curvature in the direction, 1/length), `spacing` and `turn`
+        of the point (:mod:`pdtheory.drawing.thinning`).
     spots : Spots
         Spacing and turn of every point of the field.
     """
