@@ -1,12 +1,13 @@
 """Time, memory and disk of a run to a folder, and the cost per point against a small one.
 
     uv run python benchmarks/five_million.py [--points 5000000] [--folder FOLDER] [--resume]
+        [--neighbours 300] [--degree 10] [--uncertainty]
 
-A torus with N = 300 neighbours in the radius, K = 10, orders 2 to 8, all points as queries, normals
-given, all cores. Every run is a process of its own, so that its peak memory is its own; what is
-timed is the whole process: start, reading the points, kernels, neighbours, fits, directions and
-writing. With --resume the large run goes on where an earlier one was stopped, and its time is that
-of the rest.
+A torus with N = 300 neighbours in the radius, K = 10, orders 2 to 8 (none above K), all points as
+queries, normals given, all cores. Every run is a process of its own, so that its peak memory is its
+own; what is timed is the whole process: start, reading the points, kernels, neighbours, fits,
+directions and writing. With --resume the large run goes on where an earlier one was stopped, and
+its time is that of the rest.
 """
 
 from __future__ import annotations
@@ -23,28 +24,29 @@ from pathlib import Path
 import numpy as np
 from pointset import radius_for, torus_points
 
-ORDERS = tuple(range(2, 9))
 SMALL = 200_000
-NEIGHBOURS = 300
 
 
-def run(source: Path, folder: Path, resume: bool, uncertainty: bool) -> None:
-    """The run itself; prints its seconds, peak memory in bytes, and the points it answered."""
+def run(options: argparse.Namespace) -> None:
+    """The run itself; prints its seconds and its peak memory in bytes."""
     start = time.perf_counter()
     from pdtheory.pointset import PointCloud, estimate_to_disk
 
-    with np.load(source) as data:
+    with np.load(options.run) as data:
         cloud = PointCloud(data["points"], data["normals"])
     estimate_to_disk(
-        cloud, folder, resume=resume, radius=radius_for(NEIGHBOURS, len(cloud)), degree=10,
-        orders=ORDERS, uncertainty=uncertainty,
+        cloud, options.folder, resume=options.resume, degree=options.degree,
+        radius=radius_for(options.neighbours, len(cloud)),
+        orders=range(2, min(8, options.degree) + 1), uncertainty=options.uncertainty,
     )  # fmt: skip
     seconds = time.perf_counter() - start
     peak = 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     print(seconds, peak)
 
 
-def measure(count: int, folder: Path, resume: bool, uncertainty: bool) -> tuple[float, float, int]:
+def measure(
+    count: int, folder: Path, resume: bool, options: argparse.Namespace
+) -> tuple[float, float, int]:
     """Seconds and peak memory of one run in a fresh process, and the size of its folder."""
     source = folder.with_suffix(".points.npz")
     points, normals = torus_points(count)
@@ -53,7 +55,8 @@ def measure(count: int, folder: Path, resume: bool, uncertainty: bool) -> tuple[
         shutil.rmtree(folder, ignore_errors=True)
     del points, normals
     command = [sys.executable, __file__, "--run", str(source), "--folder", str(folder)]
-    command += ["--resume"] * resume + ["--uncertainty"] * uncertainty
+    command += ["--neighbours", str(options.neighbours), "--degree", str(options.degree)]
+    command += ["--resume"] * resume + ["--uncertainty"] * options.uncertainty
     done = subprocess.run(command, capture_output=True, text=True)
     source.unlink()
     if done.returncode:
@@ -66,13 +69,15 @@ def main() -> None:
     """Print a row for the small run and one for the large."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--points", type=int, default=5_000_000)
+    parser.add_argument("--neighbours", type=int, default=300)
+    parser.add_argument("--degree", type=int, default=10)
     parser.add_argument("--folder", type=Path, help="where the results go; kept if given")
     parser.add_argument("--resume", action="store_true")
     parser.add_argument("--uncertainty", action="store_true", help="with error bars")
     parser.add_argument("--run", type=Path, help=argparse.SUPPRESS)
     options = parser.parse_args()
     if options.run is not None:
-        run(options.run, options.folder, options.resume, options.uncertainty)
+        run(options)
         return
     with tempfile.TemporaryDirectory() as scratch:
         folder = options.folder or Path(scratch) / "large"
@@ -82,7 +87,7 @@ def main() -> None:
             (SMALL, Path(scratch) / "small", False),
             (options.points, folder, options.resume),
         ):
-            seconds, peak, disk = measure(count, place, resume, options.uncertainty)
+            seconds, peak, disk = measure(count, place, resume, options)
             costs.append(seconds / count)
             print(
                 f"{count:10,d} {seconds:10.1f} {1e6 * costs[-1]:9.1f} {peak / 1e9:9.2f} "
