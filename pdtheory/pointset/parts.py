@@ -75,6 +75,9 @@ def open_folder(folder: Path, plan: dict[str, Any], resume: bool) -> None:
         raise InputError(
             f"{folder} holds a run of other input ({changed} differ); give another folder."
         )
+    for left in folder.glob(".part-*.npz"):
+        # What a run that was killed was writing.
+        left.unlink(missing_ok=True)
 
 
 def read_plan(folder: str | os.PathLike[str]) -> dict[str, Any]:

@@ -6,7 +6,13 @@ import numpy as np
 import pytest
 
 from pdtheory.errors import Cancelled, FileFormatError, InputError
-from pdtheory.pointset import estimate_directions, estimate_to_disk, load_parts, stream
+from pdtheory.pointset import (
+    estimate_directions,
+    estimate_to_disk,
+    load_parts,
+    load_points,
+    stream,
+)
 from tests.pointset.surfaces import torus
 
 HOW = {"radius": 0.3, "degree": 5, "orders": (2, 3)}
@@ -58,7 +64,9 @@ def test_resumed_run_has_the_same_bits(points, tmp_path):
     stamps = [(folder / name).stat().st_mtime_ns for name in names]
     with pytest.raises(InputError, match="resume"):
         estimate_to_disk(points, folder, **HOW)
+    (folder / ".part-000004-killed.npz").write_bytes(b"half")
     estimate_to_disk(points, folder, resume=True, threads=1, **HOW)
+    assert not list(folder.glob(".*"))
     assert [(folder / name).stat().st_mtime_ns for name in names] == stamps
     _compare(folder, estimate_directions(points, **HOW))
 
@@ -69,3 +77,28 @@ def test_other_input_is_refused(points, tmp_path):
         estimate_to_disk(points[1:901], tmp_path / "run", resume=True, **HOW)
     with pytest.raises(InputError, match="degree"):
         estimate_to_disk(points[:900], tmp_path / "run", resume=True, **(HOW | {"degree": 6}))
+
+
+def test_some_points_are_read_in_the_order_asked_for(points, tmp_path):
+    estimate_to_disk(points, tmp_path / "run", **HOW)
+    field = estimate_directions(points, **HOW)
+    chosen = np.array([2999, 0, 1234, 7])
+    some, same = load_points(tmp_path / "run", chosen), field.take(chosen)
+    np.testing.assert_array_equal(some.points, points[chosen])
+    np.testing.assert_array_equal(some.phi, same.phi)
+    for order in field.orders:
+        np.testing.assert_array_equal(some[order].offsets, same[order].offsets)
+        np.testing.assert_array_equal(some[order].vector, same[order].vector)
+    with pytest.raises(InputError, match="no point 3000"):
+        load_points(tmp_path / "run", [3000])
+
+
+def test_run_without_neighbours_is_refused(points, tmp_path):
+    with pytest.raises(InputError, match="radius of"):
+        estimate_to_disk(points, tmp_path / "run", **(HOW | {"radius": 1e-6}))
+
+
+def test_choices_go_to_disk_too(points, tmp_path):
+    how = {"radius": (0.25, 0.35), "degree": "auto", "orders": (2, 3)}
+    estimate_to_disk(points, tmp_path / "run", **how)
+    _compare(tmp_path / "run", estimate_directions(points, **how))
