@@ -17,11 +17,16 @@ def build(
     out: Annotated[Path, typer.Option("--out", "-o", help="Folder for the zips.")] = Path("dist"),
     python: Annotated[
         list[str] | None,
-        typer.Option(help="Python of the Blender, such as 3.13; 3.11 and 3.13 if left out."),
+        typer.Option(
+            metavar="VERSION",
+            help="Python of the Blender, such as 3.13; 3.11 and 3.13 if left out.",
+        ),
     ] = None,
     platform: Annotated[
         list[str] | None,
-        typer.Option(help="linux-x64, windows-x64 or macos-arm64; all if left out."),
+        typer.Option(
+            metavar="NAME", help="linux-x64, windows-x64 or macos-arm64; all if left out."
+        ),
     ] = None,
 ) -> None:
     """Build the zips of the extension with all wheels, validate them and say their sizes.

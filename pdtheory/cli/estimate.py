@@ -45,6 +45,7 @@ def estimate(
         typer.Option(
             "--output",
             "-o",
+            metavar="PATH",
             help="Where to write: .npz (complete), .ply, .vtp or .csv, several times if wanted; or "
             "one name without suffix, a folder for clouds whose results exceed the memory.",
             show_default=False,

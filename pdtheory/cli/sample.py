@@ -46,7 +46,8 @@ def sample(
     ] = Method.area,
     seed: Annotated[int, typer.Option(help="Seed of all random numbers.")] = 0,
     param: Annotated[
-        list[str] | None, typer.Option("--param", "-p", help="A parameter, as name=value.")
+        list[str] | None,
+        typer.Option("--param", "-p", metavar="NAME=VALUE", help="A parameter; several times."),
     ] = None,
     mesh: Annotated[
         int | None, typer.Option(help="Write a triangle mesh of this resolution, not samples.")
