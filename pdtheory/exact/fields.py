@@ -2,14 +2,15 @@
 
 Algebraic numbers and free parameters form a field Q(a)(p, q, ...) in which SymPy adds, multiplies
 and divides in a normal form; so does one transcendental number beside them. Several such numbers
-may depend on each other, as cosh(1) and sinh(1) do, and a division would not see it. They become
-the variables of a polynomial ring, in which only sums and products are taken: those are right
-whatever the relations between the numbers are. What vanishes is decided afterwards (`zeros`).
+may depend on each other, as cosh(1) and sinh(1) do, and a division would not see it; and a tower of
+roots may generate a field of a degree that nobody can wait for. Such numbers become the variables
+of a polynomial ring, in which only sums and products are taken: those are right whatever the
+relations between the numbers are. What vanishes is decided afterwards (`zeros`).
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import reduce
 from math import factorial
 from operator import mul
@@ -21,6 +22,7 @@ from sympy.polys.rings import ring
 from pdtheory.exact.coefficients import tidy
 from pdtheory.exact.faces import BinaryForm
 from pdtheory.exact.powerseries import Series
+from pdtheory.exact.separation import MOST_SQUARE_ROOTS, extent, is_square_root
 from pdtheory.exact.zeros import is_zero
 
 
@@ -42,13 +44,14 @@ class Field:
 
     def __init__(self, constants: Iterable[Any], variables: str = "x,y") -> None:
         listed = [*dict.fromkeys([sp.Integer(1), *constants])]
-        atoms = _atoms(listed, into_quotients=True)
+        self._in_field = _membership(listed)
+        atoms = self._atoms(listed, into_quotients=True)
         numbers = [a for a in atoms if not a.is_Symbol]
         self.divides = len(numbers) <= 1 and all(
             not a.free_symbols and a.is_algebraic is False for a in numbers
         )
         if not self.divides:
-            atoms = _atoms(listed, into_quotients=False)
+            atoms = self._atoms(listed, into_quotients=False)
         self._names = {a: a if a.is_Symbol else sp.Dummy() for a in atoms}
         self._meaning = {name: a for a, name in self._names.items()}
         if self.divides:
@@ -56,7 +59,7 @@ class Field:
             self.domain, elements = sp.construct_domain(hidden, extension=True, field=True)
             self._known = dict(zip(listed, elements, strict=True))
         else:
-            numbers = [*_algebraic_parts(listed), sp.Integer(1)]
+            numbers = [*self._algebraic_parts(listed), sp.Integer(1)]
             ground, elements = sp.construct_domain(numbers, extension=True, field=True)
             self.domain = ground.poly_ring(*self._names.values())
             self._known = {
@@ -87,7 +90,12 @@ class Field:
 
     def expression(self, element: Any) -> Any:
         """Return a coefficient as a SymPy expression; 0 if it vanishes."""
-        value = tidy(self.domain.to_sympy(element).xreplace(self._meaning))
+        value = self.domain.to_sympy(element)
+        if self.divides:
+            value = tidy(value.xreplace(self._meaning))
+        else:
+            # The numbers behind the variables may be long: they stay as they were.
+            value = tidy(value).xreplace(self._meaning)
         return sp.Integer(0) if is_zero(value) else value
 
     def series(self, degree: int, *terms: Any) -> Series:
@@ -110,44 +118,65 @@ class Field:
             result.append(BinaryForm(coefficients))
         return result
 
+    def _atoms(self, constants: Iterable[Any], *, into_quotients: bool) -> list[Any]:
+        """Return what the constants are made of besides algebraic numbers, + * and powers."""
+        found: dict[Any, None] = {}
 
-def _atoms(constants: Iterable[Any], *, into_quotients: bool) -> list[Any]:
-    """Return what the constants are made of besides algebraic numbers, + * and powers."""
-    found: dict[Any, None] = {}
+        def walk(node: Any) -> None:
+            if self._in_field(node):
+                return
+            whole = node.is_Pow and node.exp.is_Integer and (into_quotients or node.exp > 0)
+            if node.is_Add or node.is_Mul:
+                for part in node.args:
+                    walk(part)
+            elif whole:
+                walk(node.base)
+            else:
+                found[node] = None
 
-    def walk(node: Any) -> None:
-        if _is_algebraic(node):
-            return
-        whole = node.is_Pow and node.exp.is_Integer and (into_quotients or node.exp > 0)
-        if node.is_Add or node.is_Mul:
-            for part in node.args:
-                walk(part)
-        elif whole:
-            walk(node.base)
-        else:
-            found[node] = None
+        for constant in constants:
+            walk(constant)
+        return [*found]
 
-    for constant in constants:
-        walk(constant)
-    return [*found]
+    def _algebraic_parts(self, constants: Iterable[Any]) -> list[Any]:
+        """Return the algebraic numbers in sums, products and positive powers."""
+        found: dict[Any, None] = {}
+
+        def walk(node: Any) -> None:
+            if self._in_field(node):
+                found[node] = None
+            elif node.is_Add or node.is_Mul:
+                for part in node.args:
+                    walk(part)
+            elif node.is_Pow and node.exp.is_Integer and node.exp > 0:
+                walk(node.base)
+
+        for constant in constants:
+            walk(constant)
+        return [*found]
 
 
-def _algebraic_parts(constants: Iterable[Any]) -> list[Any]:
-    """Return the algebraic numbers in sums, products and positive powers."""
-    found: dict[Any, None] = {}
+def _membership(constants: Sequence[Any]) -> Callable[[Any], bool]:
+    """Return which subexpressions of the constants count as elements of the algebraic field.
 
-    def walk(node: Any) -> None:
-        if _is_algebraic(node):
-            found[node] = None
-        elif node.is_Add or node.is_Mul:
-            for part in node.args:
-                walk(part)
-        elif node.is_Pow and node.exp.is_Integer and node.exp > 0:
-            walk(node.base)
+    All algebraic numbers do if the field that they generate is small enough, else those of square
+    roots of rational numbers, or rational numbers alone.
+    """
+    size = extent(c for c in constants if _is_algebraic(c))
+    if size.is_small:
+        return _is_algebraic
+    if size.square_roots <= MOST_SQUARE_ROOTS:
+        return _is_of_square_roots
+    return lambda node: bool(node.is_Rational)
 
-    for constant in constants:
-        walk(constant)
-    return [*found]
+
+def _is_of_square_roots(node: Any) -> bool:
+    if node.is_Rational or is_square_root(node):
+        return True
+    whole = node.is_Pow and node.exp.is_Integer
+    return bool(node.is_Add or node.is_Mul or whole) and all(
+        _is_of_square_roots(a) for a in node.args
+    )
 
 
 def _is_algebraic(node: Any) -> bool:

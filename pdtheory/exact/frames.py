@@ -9,6 +9,7 @@ import sympy as sp
 
 from pdtheory.errors import InputError
 from pdtheory.exact.coefficients import exact, tidy
+from pdtheory.exact.separation import extent
 from pdtheory.exact.zeros import is_zero
 
 Vector = tuple[Any, Any, Any]
@@ -42,9 +43,9 @@ def orthogonal_frame(
 
 
 def length(vector: Sequence[Any]) -> Any:
-    """Return |v|; sums of transcendental numbers in it are not expanded."""
+    """Return |v|; sums of transcendental numbers and of towers of roots are not expanded."""
     square = sum(c**2 for c in vector)
-    if all(c.is_algebraic for c in vector):
+    if all(c.is_algebraic for c in vector) and extent(vector).is_small:
         return sp.sqrtdenest(sp.sqrt(sp.expand(square)))
     return sp.sqrt(square)
 

@@ -17,6 +17,7 @@ from pdtheory.exact.balls import engine, horner, real_roots
 from pdtheory.exact.enclosing import enclose_real
 from pdtheory.exact.engines import Integers
 from pdtheory.exact.intervals import Enclosure, Rectangle
+from pdtheory.exact.separation import extent
 from pdtheory.exact.zeros import is_zero
 
 _T = sp.Symbol("t")
@@ -90,6 +91,13 @@ class Coefficients:
                     f"The coefficient {culprit} is not known to be algebraic, nor to be so over "
                     "a common factor; exact directions need rational or real algebraic numbers."
                 )
+        size = extent(self.algebraic)
+        if size.is_hopeless:
+            raise InputError(
+                f"The coefficients lie in a field whose degree may be {size.degree}, too large for "
+                "exact directions; "
+                "use fewer different roots, or rational numbers near to them."
+            )
         field, elements = sp.construct_domain(self.algebraic, extension=True, field=True)
         return field, elements
 

@@ -271,3 +271,8 @@ def test_against_numpy_companion_roots():
         real = np.sort(roots[abs(roots.imag) < 1e-9 * (1 + abs(roots))].real)
         own = np.sort([float(p.t) for p in list(form.eigenpairs())[: len(form.eigenpairs()) // 2]])
         assert own == pytest.approx(real, rel=1e-7)
+
+
+def test_a_field_of_hopeless_degree_is_refused():
+    with pytest.raises(InputError, match="degree may be 27"):
+        BinaryForm([sp.cbrt(2), sp.cbrt(3), sp.cbrt(5), 1]).eigenpairs()

@@ -7,6 +7,7 @@ import pytest
 import sympy as sp
 
 import synthetic_surfaces
+from pdtheory.errors import InputError
 from pdtheory.exact import explicit_jet, implicit_jet, parametric_jet, taylor_forms
 from pdtheory.exact.named import NamedConstant
 from pdtheory.exact.zeros import is_zero
@@ -87,6 +88,46 @@ def test_smooth_junction_at_a_general_point():
         point = (p, q, junction(p, q))
         normal = (-slopes[0], -slopes[1], 1)
         check(jet, lambda a, b, c: c - junction(a, b), point, normal)
+
+
+def roofs(p, q):
+    """The smoothed T-junction by its definition: the upper hull of three roofs, rounded."""
+    w = mpmath.mpf(1) / 20
+
+    def rounded(a):
+        return mpmath.sqrt(a * a + w * w)
+
+    first, second = rounded(q), rounded(p) - q
+    other = (second + mpmath.sqrt((rounded(p) + q) ** 2 + 3 * w * w)) / 2
+    return -(first + other - mpmath.sqrt((first - other) ** 2 + 2 * w * w)) / 2
+
+
+def test_a_tower_of_roots():
+    """Four roots over each other: nobody can wait for the field of degree 32."""
+    at = (Fraction(1, 8), Fraction(1, 4))
+    jet = synthetic_surfaces.get("smooth-t-junction").sites()[0].jet(3, at=at)
+    with mpmath.workdps(90):
+        p, q = (mpmath.mpf(c.numerator) / c.denominator for c in at)
+        normal = [-mpmath.diff(roofs, (p, q), order) for order in ((1, 0), (0, 1))]
+        check(jet, lambda a, b, c: c - roofs(a, b), (p, q, roofs(p, q)), (*normal, 1))
+    with pytest.raises(InputError, match="not known to be algebraic"):
+        jet.eigenpairs(2)
+
+
+def test_independent_cube_roots():
+    """A field of degree 27 is as far out of reach as a tower."""
+    f = sp.cbrt(2) * x**2 + sp.cbrt(3) * x * y + sp.cbrt(5) * y**2 + x
+    at = (sp.Rational(1, 5), sp.Rational(1, 7))
+    jet = explicit_jet(f, (x, y), 3, at)
+    with mpmath.workdps(90):
+        a, b, c = (mpmath.cbrt(n) for n in (2, 3, 5))
+
+        def height(p, q):
+            return a * p * p + b * p * q + c * q * q + p
+
+        p, q = mpmath.mpf(1) / 5, mpmath.mpf(1) / 7
+        normal = (-2 * a * p - b * q - 1, -b * p - 2 * c * q, 1)
+        check(jet, lambda u, v, w: w - height(u, v), (p, q, height(p, q)), normal)
 
 
 def test_implicit_surface_with_dependent_functions():
