@@ -204,7 +204,7 @@ def sheet(
     columns
         Panels in a row.
     size
-        Width and height of a panel in pixels at draft quality; three times that on paper.
+        Width and height of a panel in pixels at draft quality; 2.5 times that on paper.
 
     Returns
     -------
