@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cmp_to_key
 from itertools import pairwise
 from math import factorial
 from typing import Any
@@ -14,9 +15,17 @@ from pdtheory.errors import InputError
 from pdtheory.exact.coefficients import check_order, exact
 from pdtheory.exact.faces import BinaryForm
 from pdtheory.exact.wavejets import WavejetsRow
-from pdtheory.exact.zeros import is_zero
+from pdtheory.exact.zeros import is_zero, sign
 
 Coefficients = list[Any]
+
+
+def _compare(a: Any, b: Any) -> int:
+    """Return the proved sign of a - b."""
+    return sign(a - b)
+
+
+_ORDER = cmp_to_key(_compare)
 
 
 @dataclass(frozen=True)
@@ -97,7 +106,7 @@ def _ascending(angles: Sequence[Any]) -> tuple[Any, ...]:
     for a in values:
         if not a.is_real:
             raise InputError(f"The angle {a} is not a real number of degrees.")
-    return tuple(sorted({a - 360 * sp.floor(a / 360) for a in values}, key=lambda a: sp.N(a, 30)))
+    return tuple(sorted({a - 360 * sp.floor(a / 360) for a in values}, key=_ORDER))
 
 
 def _refuse_odd(order: int, angles: tuple[Any, ...]) -> str | None:
@@ -117,7 +126,7 @@ def _refuse_odd(order: int, angles: tuple[Any, ...]) -> str | None:
     # Interlacing: going round, angles and opposites alternate.
     marked = sorted(
         [(a, 0) for a in angles] + [((a + 180) % 360, 1) for a in angles],
-        key=lambda pair: sp.N(pair[0], 30),
+        key=lambda pair: _ORDER(pair[0]),
     )
     for (a, first), (b, second) in pairwise([*marked, marked[0]]):
         if first == second:
@@ -179,7 +188,7 @@ def _minima(maxima: Coefficients, ends: list[tuple[Any, Any]]) -> Coefficients:
             for part in (share, 1 - share)
         )
         means = [_mean(_multiply(maxima, m)) for m in (first, second)]
-        if sp.N(means[0], 30) * sp.N(means[1], 30) < 0:
+        if sign(means[0]) * sign(means[1]) < 0:
             return [
                 sp.expand(means[1] * p - means[0] * q) for p, q in zip(first, second, strict=True)
             ]
@@ -217,9 +226,9 @@ def _mean(form: Coefficients) -> Any:
     return factorial(len(form) - 1) * BinaryForm(form).row[0]
 
 
-def _slope(form: BinaryForm, v: tuple[Any, Any]) -> Any:
-    """Return the derivative of a form along the circle at v, to 30 digits."""
-    return sp.N(form.angular_derivative()(*v), 30)
+def _slope(form: BinaryForm, v: tuple[Any, Any]) -> int:
+    """Return the sign of the derivative of a form along the circle at v."""
+    return sign(form.angular_derivative()(*v))
 
 
 def _integrate(derivative: BinaryForm) -> WavejetsRow:
@@ -259,7 +268,7 @@ def rows_with_critical_lines(order: int, angles: Sequence[Any]) -> list[Wavejets
     circle must vanish too, as that of every derivative along the circle.
     """
     k = check_order(order, 1)
-    lines = sorted({a - 180 * sp.floor(a / 180) for a in _ascending(angles)}, key=sp.N)
+    lines = sorted({a - 180 * sp.floor(a / 180) for a in _ascending(angles)}, key=_ORDER)
     free = k - len(lines)
     product = _through([_unit(a) for a in lines])
     monomials = [[sp.Integer(int(i == j)) for i in range(free + 1)] for j in range(free + 1)]

@@ -18,7 +18,7 @@ from pdtheory.exact.enclosing import enclose_real
 from pdtheory.exact.engines import Integers
 from pdtheory.exact.intervals import Enclosure, Rectangle
 from pdtheory.exact.separation import extent
-from pdtheory.exact.zeros import is_zero
+from pdtheory.exact.zeros import is_zero, sign
 
 _T = sp.Symbol("t")
 
@@ -63,7 +63,7 @@ class Coefficients:
             return sp.Integer(1)
         self.check_real_numbers()
         lead = next(e for e in self.expressions if not is_zero(e))
-        return lead if sp.N(lead, 30) > 0 else -lead
+        return lead if sign(lead) > 0 else -lead
 
     @cached_property
     def algebraic(self) -> tuple[Any, ...]:

@@ -9,7 +9,7 @@ from pdtheory.exact.coefficients import check_order
 from pdtheory.exact.faces import Face
 from pdtheory.exact.strata import count_maxima
 from pdtheory.exact.wavejets import WavejetsRow
-from pdtheory.exact.zeros import is_zero
+from pdtheory.exact.zeros import is_zero, sign
 
 
 def rosy_kinds(face: Face) -> frozenset[Kind]:
@@ -58,4 +58,4 @@ def _maxima_are_rosy(row: WavejetsRow) -> bool:
     start = -sp.arg(row[k]) / k
     second = row.form.angular_derivative().angular_derivative()
     angles = (start + 2 * sp.pi * j / k for j in range(k // 2))
-    return all(sp.N(second(sp.cos(a), sp.sin(a)), 30) < 0 for a in angles)
+    return all(sign(second(sp.cos(a), sp.sin(a))) < 0 for a in angles)

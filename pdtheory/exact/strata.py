@@ -20,6 +20,7 @@ from pdtheory.exact.coefficients import check_order, exact
 from pdtheory.exact.faces import Face
 from pdtheory.exact.roots import Coefficients
 from pdtheory.exact.wavejets import WavejetsRow
+from pdtheory.exact.zeros import sign
 
 _T = sp.Symbol("t")
 
@@ -59,14 +60,10 @@ def count_maxima(face: Face) -> int:
 def _sturm_count(poly: Any) -> int:
     """Return the number of real roots of a squarefree polynomial from its Sturm sequence."""
     sequence = poly.sturm()
-    signs = [(_sign(p.LC()), p.degree()) for p in sequence]
+    signs = [(sign(p.LC()), p.degree()) for p in sequence]
     at_plus = [s for s, _ in signs]
     at_minus = [s * (-1) ** d for s, d in signs]
     return _variations(at_minus) - _variations(at_plus)
-
-
-def _sign(value: Any) -> int:
-    return 1 if sp.N(value, 20) > 0 else -1
 
 
 def _variations(signs: list[int]) -> int:

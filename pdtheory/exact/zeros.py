@@ -1,4 +1,4 @@
-"""When an exact constant is zero: decided, or refused, never guessed.
+"""When an exact constant is zero, and its sign: decided, or refused, never guessed.
 
 A constant that is not zero shows it in an enclosure. Zero itself needs a proof: for algebraic
 numbers that the enclosure is smaller than they can be (`separation`), for exponentials the theorem
@@ -14,6 +14,7 @@ from typing import Any, Final
 import sympy as sp
 
 from pdtheory.errors import ComputationError
+from pdtheory.exact.algebraic import precisions
 from pdtheory.exact.enclosing import enclose
 from pdtheory.exact.exponentials import Root, Term, TooLong, numerator_terms
 from pdtheory.exact.separation import separation_bits
@@ -62,6 +63,27 @@ def is_zero(value: Any) -> bool:
         f"The number {_shown(value)} is below {_bound(value)} in size, and whether it is zero "
         "could not be proved; choose another point or other coefficients."
     )
+
+
+def sign(value: Any) -> int:
+    """Return the sign of a real constant: proved, or refused.
+
+    Raises
+    ------
+    ComputationError
+        As for :func:`is_zero`, and if the number is not real.
+    """
+    if value.is_Rational:
+        return int(sp.sign(value))
+    if is_zero(value):
+        return 0
+    for bits in precisions():
+        found = enclose(value, bits)
+        if found is not None and found.real.sign:
+            return found.real.sign
+        if found is not None and found.imaginary.sign:
+            break
+    raise ComputationError(f"The number {_shown(value)} is not real and has no sign.")
 
 
 def _excludes_zero(value: Any, bits: int) -> bool:

@@ -2,6 +2,7 @@
 
 import itertools
 
+import mpmath
 import numpy as np
 import pytest
 import sympy as sp
@@ -9,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pdtheory.conventions import Kind
-from pdtheory.errors import InputError
+from pdtheory.errors import ComputationError, InputError
 from pdtheory.exact import WavejetsRow, real_eigenpairs
 from pdtheory.exact.inverse import realize_maxima, rows_with_critical_lines
 from pdtheory.exact.rosy import rosy_kinds
@@ -192,3 +193,29 @@ def test_bad_input():
         realize_maxima(3, [sp.I])
     with pytest.raises(InputError, match="order is 1"):
         rosy_kinds(WavejetsRow(1, {1: 1}))
+
+
+def test_maxima_nearer_than_any_fixed_precision():
+    gap = sp.Rational(1, 10**200)
+    angles = [0, gap, 180, 180 + gap]
+    found = realize_maxima(4, angles)
+    assert found.row is not None
+    second = found.row.form.angular_derivative().angular_derivative()
+    with mpmath.workdps(700):
+        for angle in found.angles:
+            a = mpmath.radians(mpmath.mpf(int(angle.p)) / int(angle.q))
+            c, s = mpmath.cos(a), mpmath.sin(a)
+            value = sum(
+                mpmath.mpmathify(sp.N(b, 700, maxn=4000)) * c ** (4 - j) * s**j
+                for j, b in enumerate(second.coefficients)
+            )
+            assert value < 0
+
+
+def test_angles_are_sorted_by_proof():
+    near = sp.Rational(str(sp.N(sp.sqrt(2), 150))) - sp.Rational(1, 10**140)
+    assert realize_maxima(1, [sp.sqrt(2), near]).angles == (near, sp.sqrt(2))
+    with pytest.raises(ComputationError, match="could not be proved"):
+        realize_maxima(
+            1, [4 * sp.atan(sp.Rational(1, 5)), sp.atan(sp.Rational(1, 239)) + sp.pi / 4]
+        )

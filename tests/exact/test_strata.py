@@ -145,3 +145,10 @@ def test_bad_input():
         count_maxima(BinaryForm([1]))
     with pytest.raises(InputError, match=r"depends on a|not known to be algebraic"):
         count_maxima(BinaryForm([a, 1]))
+
+
+@pytest.mark.parametrize(("nudge", "count"), [(1, 1), (-1, 3)])
+def test_a_count_right_beside_the_cusp(nudge, count):
+    """Beside the cusp -9 of the deltoid, nearer than 100 digits can tell."""
+    near = sp.Rational(str(sp.N(sp.sqrt(2), 150))) - sp.Rational(nudge, 10**140)
+    assert count_maxima(WavejetsRow(3, {1: -9 * sp.sqrt(2) / near, 3: 1})) == count
