@@ -116,7 +116,9 @@ def predict(
     wanted = tuple(range(2, degree + 1)) if orders is None else tuple(sorted(set(orders)))
     for k in wanted:
         if not 1 <= k <= degree:
-            raise InputError(f"The order is {k}; a fit of degree {degree} has the orders 1 to it.")
+            raise InputError(
+                f"The order is {k}; a fit of degree {degree} has the orders 1 to {degree}."
+            )
     R = exact(radius)
     if not (R.is_real and R > 0):
         raise InputError(f"The radius is {radius}; it must be a positive number.")

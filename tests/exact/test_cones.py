@@ -191,3 +191,8 @@ def test_zero_frequencies_of_general_azimuths_are_exact():
     assert row[2] == row[4] == 0
     assert row[0] != 0
     assert predict(cone, 6, (5,)).row(5).support == [3]
+
+
+def test_an_order_above_the_degree_names_both():
+    with pytest.raises(InputError, match="order is 5; a fit of degree 4 has the orders 1 to 4"):
+        predict(ridge(), 4, [2, 5])
