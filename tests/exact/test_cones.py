@@ -195,4 +195,4 @@ def test_zero_frequencies_of_general_azimuths_are_exact():
 
 def test_an_order_above_the_degree_names_both():
     with pytest.raises(InputError, match="order is 5; a fit of degree 4 has the orders 1 to 4"):
-        predict(ridge(), 4, [2, 5])
+        predict(Cone.ridge(), 4, [2, 5])
