@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from pdtheory.pointset.kernels.jit import Array, IntArray, inner, kernel
+from pdtheory.pointset.kernels.jit import Array, IntArray, kernel, steady
 from pdtheory.pointset.kernels.lanes import LANES
 from pdtheory.pointset.kernels.results import Directions, Jets
 from pdtheory.pointset.kernels.roots import (
@@ -41,7 +41,7 @@ BENCH = layout(
 )
 
 
-@inner
+@steady
 def _deviations(
     covariance: Array, entry: int, order: int, c: float, s: float, bench: Any
 ) -> tuple[float, float]:
@@ -76,7 +76,7 @@ def _deviations(
     return np.sqrt(max(of_slope, 0.0)), np.sqrt(max(of_value, 0.0))
 
 
-@inner
+@steady
 def _scale_term(phi: Any, column: int, order: int, unit: float, bench: Any) -> tuple[float, float]:
     """Write the coefficients of one order in units of the largest; returns its size and the sum."""
     largest = 0.0
@@ -97,7 +97,7 @@ def _scale_term(phi: Any, column: int, order: int, unit: float, bench: Any) -> t
     return largest, swing
 
 
-@inner
+@steady
 def _store(
     q: int,
     first: int,
