@@ -7,7 +7,17 @@ from typing import Annotated
 
 import typer
 
-from pdtheory.cli.options import check_target, load_drawable, parse_orders, parse_size, progress_bar
+from pdtheory.cli.options import (
+    Azimuth,
+    Elevation,
+    LargestUncertainty,
+    Up,
+    check_target,
+    load_drawable,
+    parse_orders,
+    parse_size,
+    progress_bar,
+)
 
 
 def draw(
@@ -26,18 +36,10 @@ def draw(
     ] = None,
     kind: Annotated[str, typer.Option(help="Directions to draw: max, min or both.")] = "max",
     strokes: Annotated[int, typer.Option(help="About how many points carry strokes.", min=1)] = 800,
-    largest_uncertainty: Annotated[
-        float, typer.Option(help="Leave out directions less certain than this, in degrees.")
-    ] = 20.0,
-    up: Annotated[
-        str | None, typer.Option(help="Axis that points up: x, y or z; by the shape if left out.")
-    ] = None,
-    azimuth: Annotated[
-        float | None, typer.Option(help="Degrees the camera goes round to the right of the front.")
-    ] = None,
-    elevation: Annotated[
-        float | None, typer.Option(help="Degrees the camera stands above the horizon.")
-    ] = None,
+    largest_uncertainty: LargestUncertainty = 20.0,
+    up: Up = None,
+    azimuth: Azimuth = None,
+    elevation: Elevation = None,
     size: Annotated[str, typer.Option(help="Width x height of the picture.")] = "1200x900",
     samples: Annotated[int, typer.Option(help="Rays for each pixel.", min=1)] = 12,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No progress bar.")] = False,

@@ -6,7 +6,9 @@ import os
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
+
+import typer
 
 from pdtheory.errors import FileAccessError, InputError
 
@@ -20,6 +22,20 @@ MAX_ORDER = 64
 DRAWABLE = 200_000
 
 Report = Callable[[float, str], None]
+
+#: Options of every command that makes a picture.
+LargestUncertainty = Annotated[
+    float, typer.Option(help="Leave out directions less certain than this, in degrees.")
+]
+Up = Annotated[
+    str | None, typer.Option(help="Axis that points up: x, y or z; by the shape if left out.")
+]
+Azimuth = Annotated[
+    float | None, typer.Option(help="Degrees the camera goes round to the right of the front.")
+]
+Elevation = Annotated[
+    float | None, typer.Option(help="Degrees the camera stands above the horizon.")
+]
 
 
 def parse_orders(text: str, *, smallest: int = 1) -> tuple[int, ...]:

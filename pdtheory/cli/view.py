@@ -7,7 +7,16 @@ from typing import Annotated
 
 import typer
 
-from pdtheory.cli.options import check_target, load_drawable, parse_orders, parse_size
+from pdtheory.cli.options import (
+    Azimuth,
+    Elevation,
+    LargestUncertainty,
+    Up,
+    check_target,
+    load_drawable,
+    parse_orders,
+    parse_size,
+)
 
 
 def view(
@@ -27,18 +36,10 @@ def view(
     kind: Annotated[str, typer.Option(help="Directions to show: max, min or both.")] = "max",
     strokes: Annotated[int, typer.Option(help="About how many points carry strokes.")] = 800,
     least_strength: Annotated[float, typer.Option(help="Leave out weaker directions.")] = 0.0,
-    largest_uncertainty: Annotated[
-        float, typer.Option(help="Leave out directions less certain than this, in degrees.")
-    ] = 20.0,
-    up: Annotated[
-        str | None, typer.Option(help="Axis that points up: x, y or z; by the shape if left out.")
-    ] = None,
-    azimuth: Annotated[
-        float | None, typer.Option(help="Degrees the camera goes round to the right of the front.")
-    ] = None,
-    elevation: Annotated[
-        float | None, typer.Option(help="Degrees the camera stands above the horizon.")
-    ] = None,
+    largest_uncertainty: LargestUncertainty = 20.0,
+    up: Up = None,
+    azimuth: Azimuth = None,
+    elevation: Elevation = None,
     size: Annotated[str, typer.Option(help="Width x height of the window.")] = "1200x900",
     screenshot: Annotated[
         Path | None, typer.Option(help="Write this PNG instead of opening a window.")
