@@ -2,21 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from pdtheory.conventions import wavejets_table
 from pdtheory.pointset.cloud import FloatArray, IntArray
-from pdtheory.pointset.directions import ROW_ARRAYS, OrderDirections
+from pdtheory.pointset.directions import OrderDirections
 from pdtheory.pointset.field import DirectionField
-from pdtheory.pointset.kernels.chunk import Output
-
-
-def order_rows(output: Output, base: IntArray, j: int) -> dict[str, Any]:
-    """Return copies of the rows of order number j of one chunk, by name."""
-    rows = slice(int(base[j]), int(base[j] + output.counts[j].sum()))
-    return {name: getattr(output, name)[rows].copy() for name in ROW_ARRAYS}
+from pdtheory.pointset.kernels import results
+from pdtheory.pointset.kernels.results import Output
 
 
 class Collector:
@@ -39,54 +32,63 @@ class Collector:
         self._points = points
         self._orders = orders
         self._table = np.array(wavejets_table(degree), dtype=np.int64)
-        self._radius = np.zeros(size)
-        self._frames = np.full((size, 3, 3), np.nan)
-        self._degree = np.zeros(size, np.int64)
-        self._neighbours = np.zeros(size, np.int64)
-        self._residual = np.full(size, np.nan)
-        self._condition = np.full(size, np.nan)
-        self._status = np.zeros(size, np.int64)
-        self._phi = np.full((size, len(self._table)), np.nan, np.complex128)
-        self._counts = np.zeros((len(orders), size), np.int64)
-        self._isotropic = np.zeros((len(orders), size), np.bool_)
-        self._chunks: list[tuple[IntArray, list[dict[str, Any]]]] = []
+        self._radius = np.empty(size)
+        self._frames = np.empty((size, 3, 3))
+        self._degree = np.empty(size, np.int64)
+        self._neighbours = np.empty(size, np.int64)
+        self._residual = np.empty(size)
+        self._condition = np.empty(size)
+        self._status = np.empty(size, np.int64)
+        self._phi = np.empty((size, len(self._table)), np.complex128)
+        self._counts = np.empty((len(orders), size), np.int64)
+        self._isotropic = np.empty((len(orders), size), np.bool_)
+        self._where: list[IntArray] = []
+        self._rows: list[list[FloatArray]] = [[] for _ in orders]
 
     def add(self, where: IntArray, radii: FloatArray, output: Output, base: IntArray) -> None:
         """Take the results for the queries `where`."""
+        jets, found = output
         self._radius[where] = radii
-        self._frames[where] = output.frames
-        self._degree[where] = output.degree
-        self._neighbours[where] = output.neighbours
-        self._residual[where] = output.residual
-        self._condition[where] = output.condition
-        self._status[where] = output.status
-        self._phi[where] = output.phi
-        self._counts[:, where] = output.counts
-        self._isotropic[:, where] = output.isotropic
-        rows = [order_rows(output, base, j) for j in range(len(self._orders))]
-        self._chunks.append((where, rows))
+        self._frames[where] = jets.frames
+        self._degree[where] = jets.degree
+        self._neighbours[where] = jets.neighbours
+        self._residual[where] = jets.residual
+        self._condition[where] = jets.condition
+        self._status[where] = jets.status
+        self._phi[where] = jets.phi
+        self._counts[:, where] = found.counts
+        self._isotropic[:, where] = found.isotropic
+        self._where.append(where)
+        for rows, first, count in zip(self._rows, base, found.counts.sum(axis=1), strict=True):
+            rows.append(found.rows[first : first + count].copy())
 
     def field(self) -> DirectionField:
-        """Return everything that was added as one field."""
+        """Return everything that was added as one field; the collector is empty afterwards."""
+        # Place of each query among the chunks.
+        place = np.empty(len(self._points), np.int64)
+        place[np.concatenate([*self._where, np.empty(0, np.int64)])] = np.arange(len(place))
         directions = {}
         for j, order in enumerate(self._orders):
-            offsets = np.concatenate(([0], np.cumsum(self._counts[j]))).astype(np.int64)
-            total = int(offsets[-1])
-            arrays: dict[str, Any] = {
-                name: np.empty(
-                    (total, 3) if name == "vector" else total,
-                    np.int8 if name == "kind" else np.float64,
-                )
-                for name in ROW_ARRAYS
-            }
-            for where, rows in self._chunks:
-                counts = self._counts[j, where]
-                first = np.cumsum(counts) - counts
-                target = np.repeat(offsets[where] - first, counts) + np.arange(int(counts.sum()))
-                for name in ROW_ARRAYS:
-                    arrays[name][target] = rows[j][name]
+            counts = self._counts[j]
+            offsets = np.concatenate(([0], np.cumsum(counts))).astype(np.int64)
+            arrived = np.empty_like(counts)
+            arrived[place] = counts
+            first = (np.cumsum(arrived) - arrived)[place]
+            source = np.repeat(first - offsets[:-1], counts) + np.arange(int(offsets[-1]))
+            rows = np.concatenate([*self._rows[j], np.empty((0, results.COLUMNS))])
+            self._rows[j].clear()
+            rows = rows.take(source, axis=0)
             directions[int(order)] = OrderDirections(
-                order=int(order), offsets=offsets, isotropic=self._isotropic[j], **arrays
+                order=int(order),
+                offsets=offsets,
+                angle=rows[:, results.ANGLE].copy(),
+                vector=rows[:, results.VECTOR : results.VECTOR + 3].copy(),
+                eigenvalue=rows[:, results.EIGENVALUE].copy(),
+                strength=rows[:, results.STRENGTH].copy(),
+                kind=rows[:, results.KIND].astype(np.int8),
+                angle_std=rows[:, results.ANGLE_STD].copy(),
+                eigenvalue_std=rows[:, results.EIGENVALUE_STD].copy(),
+                isotropic=self._isotropic[j],
             )
         return DirectionField(
             points=self._points,

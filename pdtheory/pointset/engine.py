@@ -12,15 +12,12 @@ from scipy.spatial import cKDTree
 from pdtheory.conventions import wavejets_table
 from pdtheory.pointset.cloud import FloatArray, IntArray
 from pdtheory.pointset.kernels.chunk import fit_chunk
-from pdtheory.pointset.kernels.directions import (
-    BENCH,
-    find_directions,
-)
+from pdtheory.pointset.kernels.directions import BENCH, find_directions
 from pdtheory.pointset.kernels.fit import Settings
 from pdtheory.pointset.kernels.grid import Grid, build_grid, cell_order
 from pdtheory.pointset.kernels.lanes import LANES
 from pdtheory.pointset.kernels.moments import CLOUD_ROWS
-from pdtheory.pointset.kernels.results import Output, join, make_directions, make_jets
+from pdtheory.pointset.kernels.results import Output, make_directions, make_jets
 from pdtheory.pointset.kernels.tables import WORKSPACE, aligned, make_record, make_tables
 from pdtheory.pointset.neighbourhoods import Choice, nearest, refuse_crowd
 from pdtheory.pointset.pool import Flag
@@ -165,4 +162,4 @@ class Engine:
             flag,
             directions,
         )
-        return radii, join(jets, directions)
+        return radii, Output(jets, directions)

@@ -158,11 +158,6 @@ class PointDirections:
         """
         from pdtheory.plots.polar import polar_figure, save_figure
 
-        if self.status.unanswered:
-            raise InputError(
-                f"point {self.index} has {' and '.join(status_words(self.status))}: "
-                "there is nothing to plot; choose another point."
-            )
         title = f"point {self.index},  R = {self.radius:.4g},  degree {self.degree}"
         figure = polar_figure(self.polar_terms(), title=title)
         if path is not None:
@@ -173,9 +168,19 @@ class PointDirections:
         """Return the terms of all orders that the fit reached, as the polar plot takes them.
 
         They are without unit, phi_{k,n} R^(k-1), so that orders can be compared.
+
+        Raises
+        ------
+        InputError
+            If the point has no answer.
         """
         from pdtheory.plots.polar import PolarTerm
 
+        if self.status.unanswered:
+            raise InputError(
+                f"point {self.index} has {' and '.join(status_words(self.status))}: "
+                "there is nothing to plot; choose another point."
+            )
         return [
             PolarTerm(
                 order,

@@ -27,9 +27,14 @@ import numpy.typing as npt
 
 from pdtheory.conventions import UNANSWERED, wavejets_table
 from pdtheory.pointset.cloud import FloatArray, IntArray
-from pdtheory.pointset.directions import ROW_ARRAYS
 from pdtheory.pointset.engine import Engine
-from pdtheory.pointset.kernels.chunk import Output, make_output
+from pdtheory.pointset.kernels.results import (
+    EIGENVALUE_STD,
+    Directions,
+    Output,
+    make_directions,
+    make_jets,
+)
 from pdtheory.pointset.pool import Flag
 
 #: Standard deviations by which g_k may differ from that of a candidate with less bias, where the
@@ -39,6 +44,8 @@ BIASED, UNKNOWN = 1.0, 2.0
 PRICE = 3.0
 #: Highest degree that is tried, unless the orders ask for more.
 HIGHEST = 10
+#: What is handed on of the fits beside their coefficients.
+_KEPT = ("frames", "degree", "neighbours", "residual", "noise", "condition", "status")
 
 
 def candidate_degrees(orders: Sequence[int] | IntArray, largest: int) -> list[int]:
@@ -69,13 +76,13 @@ class _Result(NamedTuple):
     @property
     def able(self) -> npt.NDArray[np.bool_]:
         """(Q,) whether there is an answer with the degree asked for."""
-        answered = (self.output.status & int(UNANSWERED)) == 0
-        return answered & (self.output.degree == self.degree)
+        jets = self.output.jets
+        return ((jets.status & int(UNANSWERED)) == 0) & (jets.degree == self.degree)
 
     @property
     def score(self) -> FloatArray:
         """(Q,) how badly the heights are described, coefficients paid for; -inf if exactly."""
-        squared, noise = self.output.residual**2, self.output.noise**2
+        squared, noise = self.output.jets.residual**2, self.output.jets.noise**2
         with np.errstate(divide="ignore", invalid="ignore"):
             # noise^2 = r^2 / (1 - t), so t / (1 - t) follows from the two.
             score = np.log(squared) + PRICE * (noise / squared - 1.0)
@@ -144,7 +151,11 @@ class Selector:
         for j, order in enumerate(self.orders):
             unit = scale ** (order - 1.0)
             g = [_row_of_order(result, int(order)) * unit[:, None] for result in results]
-            variance = [_variance(r.output, base, j, unit / factorial(order)) for r in results]
+            variance = [
+                _variance(result.output.directions, base, j, unit / factorial(order))
+                for result in results
+            ]
+            isotropic = [result.output.directions.isotropic[j] for result in results]
             # Zero is a candidate without noise.
             spread += np.log(np.clip(variance, 1e-300, 1e300))
             for i, one in enumerate(results):
@@ -152,7 +163,7 @@ class Selector:
                     if i == other or two.degree < one.degree:
                         continue
                     better = able[other] & (two.radii <= one.radii)
-                    both_round = one.output.isotropic[j] & two.output.isotropic[j]
+                    both_round = isotropic[i] & isotropic[other]
                     difference = np.sum(np.abs(g[i] - g[other]) ** 2, axis=1)
                     with np.errstate(invalid="ignore"):
                         near = difference <= tolerance[i] ** 2 * variance[other]
@@ -178,28 +189,27 @@ class Selector:
     def _merge(self, chosen: IntArray, results: Sequence[_Result]) -> Output:
         """Return the output with the rows of the chosen candidate at each point."""
         size = len(chosen)
-        merged = make_output(size, self.orders, len(wavejets_table(self.degree)))
+        columns = len(wavejets_table(self.degree))
+        jets = make_jets(size, self.orders, columns, uncertainty=False)
+        merged = make_directions(size, self.orders)
         base = self.rows(size)
         for number, result in enumerate(results):
             here = np.flatnonzero(chosen == number)
-            for name in merged._fields:
-                source, target = getattr(result.output, name), getattr(merged, name)
-                if name in ("counts", "isotropic"):
-                    target[:, here] = source[:, here]
-                elif name == "phi":
-                    # Zero above the degree, NaN where there is no answer.
-                    target[here] = np.where(np.isnan(source[here, :1]), np.nan, 0.0)
-                    target[here, : source.shape[1]] = source[here]
-                elif name not in ROW_ARRAYS:
-                    target[here] = source[here]
+            fits, found = result.output
+            for name in _KEPT:
+                getattr(jets, name)[here] = getattr(fits, name)[here]
+            # Zero above the degree, NaN where there is no answer.
+            jets.phi[here] = np.where(np.isnan(fits.phi[here, :1]), np.nan, 0.0)
+            jets.phi[here, : fits.phi.shape[1]] = fits.phi[here]
+            merged.counts[:, here] = found.counts[:, here]
+            merged.isotropic[:, here] = found.isotropic[:, here]
         for j in range(len(self.orders)):
             for number, result in enumerate(results):
                 here = np.flatnonzero(chosen == number)
+                found = result.output.directions
                 target = base[j] + _rows_of(merged.counts[j], here)
-                source = base[j] + _rows_of(result.output.counts[j], here)
-                for name in ROW_ARRAYS:
-                    getattr(merged, name)[target] = getattr(result.output, name)[source]
-        return merged
+                merged.rows[target] = found.rows[base[j] + _rows_of(found.counts[j], here)]
+        return Output(jets, merged)
 
 
 def _rows_of(counts: IntArray, points: IntArray) -> IntArray:
@@ -214,15 +224,15 @@ def _row_of_order(result: _Result, order: int) -> npt.NDArray[np.complex128]:
     """Return phi_{k,n} scaled so that squares add up to the mean of g_k^2 over the angle."""
     table = np.array(wavejets_table(result.degree))
     columns = np.flatnonzero(table[:, 0] == order)
-    return result.output.phi[:, columns] * np.where(table[columns, 1] == 0, 1.0, np.sqrt(2.0))
+    return result.output.jets.phi[:, columns] * np.where(table[columns, 1] == 0, 1.0, np.sqrt(2.0))
 
 
-def _variance(output: Output, base: IntArray, j: int, unit: FloatArray) -> FloatArray:
+def _variance(found: Directions, base: IntArray, j: int, unit: FloatArray) -> FloatArray:
     """Return the variance of the order's g, the mean over its directions; 0 if it is isotropic."""
-    counts = output.counts[j]
+    counts = found.counts[j]
     rows = slice(int(base[j]), int(base[j] + counts.sum()))
     point = np.repeat(np.arange(len(counts)), counts)
-    std = output.eigenvalue_std[rows] * unit[point]
+    std = found.rows[rows, EIGENVALUE_STD] * unit[point]
     total = np.bincount(point, std**2, len(counts))
     mean = np.divide(total, counts, out=np.full(len(counts), np.inf), where=counts > 0)
-    return np.where(output.isotropic[j], 0.0, mean)
+    return np.where(found.isotropic[j], 0.0, mean)

@@ -15,8 +15,6 @@ from pdtheory.pointset.kernels.lanes import LANES
 from pdtheory.pointset.kernels.moments import SQUARED
 from pdtheory.pointset.kernels.regression import degree_start
 from pdtheory.pointset.kernels.results import Jets
-from pdtheory.pointset.kernels.results import Output as Output
-from pdtheory.pointset.kernels.results import make_output as make_output
 from pdtheory.pointset.kernels.reweighting import fit_robustly
 from pdtheory.pointset.kernels.uncertainty import (
     order_covariance,

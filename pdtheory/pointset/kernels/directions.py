@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from pdtheory.pointset.kernels import results
 from pdtheory.pointset.kernels.jit import Array, IntArray, kernel, steady
 from pdtheory.pointset.kernels.lanes import LANES
 from pdtheory.pointset.kernels.results import Directions, Jets
@@ -142,14 +143,15 @@ def _store(
             to = row + i + half * count
             sign = mirror if half else 1.0
             way = -1.0 if half else 1.0
-            out.angle[to] = table[ANGLE, at] + half * np.pi
+            out.rows[to, results.ANGLE] = table[ANGLE, at] + half * np.pi
             for axis in range(3):
-                out.vector[to, axis] = way * (c * frame[0, axis] + s * frame[1, axis])
-            out.eigenvalue[to] = sign * g * unit
-            out.strength[to] = abs(g)
-            out.kind[to] = np.int8(sign * bench.kind[at])
-            out.angle_std[to] = angle_std
-            out.eigenvalue_std[to] = g_std * unit
+                along = c * frame[0, axis] + s * frame[1, axis]
+                out.rows[to, results.VECTOR + axis] = way * along
+            out.rows[to, results.EIGENVALUE] = sign * g * unit
+            out.rows[to, results.STRENGTH] = abs(g)
+            out.rows[to, results.ANGLE_STD] = angle_std
+            out.rows[to, results.EIGENVALUE_STD] = g_std * unit
+            out.rows[to, results.KIND] = sign * bench.kind[at]
 
 
 @kernel

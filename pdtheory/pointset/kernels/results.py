@@ -60,67 +60,40 @@ def make_jets(size: int, orders: Any, columns: int, uncertainty: bool) -> Jets:
     )
 
 
-class Directions(NamedTuple):
-    """Directions of Q points, J orders, M rows for all of them together.
+#: Columns of the rows of directions; what they hold is told by :class:`OrderDirections`.
+ANGLE, VECTOR, EIGENVALUE, STRENGTH = 0, 1, 4, 5
+ANGLE_STD, EIGENVALUE_STD, KIND, COLUMNS = 6, 7, 8, 9
 
-    Those of order j of all points follow one another from row ``base[j]``.
+
+class Directions(NamedTuple):
+    """Directions of Q points, J orders.
+
+    Attributes
+    ----------
+    counts : (J, Q) int64
+        Number of directions.
+    isotropic : (J, Q) bool
+        Where an order is constant.
+    rows : (M, COLUMNS) float64
+        The directions; those of order j of all points follow one another from row ``base[j]``.
     """
 
     counts: Any
     isotropic: Any
-    angle: Any
-    vector: Any
-    eigenvalue: Any
-    strength: Any
-    kind: Any
-    angle_std: Any
-    eigenvalue_std: Any
+    rows: Any
 
 
 def make_directions(size: int, orders: Any) -> Directions:
     """Allocate results for `size` points."""
-    rows = size * int(2 * orders.sum())
     return Directions(
         np.zeros((len(orders), size), np.int64),
         np.zeros((len(orders), size), np.bool_),
-        np.empty(rows),
-        np.empty((rows, 3)),
-        np.empty(rows),
-        np.empty(rows),
-        np.empty(rows, np.int8),
-        np.empty(rows),
-        np.empty(rows),
+        np.empty((size * int(2 * orders.sum()), COLUMNS)),
     )
 
 
 class Output(NamedTuple):
-    """Results of one chunk: the first fields of `Jets`, then those of `Directions`."""
+    """Results of one chunk."""
 
-    frames: Any
-    degree: Any
-    neighbours: Any
-    residual: Any
-    noise: Any
-    condition: Any
-    status: Any
-    phi: Any
-    counts: Any
-    isotropic: Any
-    angle: Any
-    vector: Any
-    eigenvalue: Any
-    strength: Any
-    kind: Any
-    angle_std: Any
-    eigenvalue_std: Any
-
-
-def join(jets: Jets, directions: Directions) -> Output:
-    """Put both together."""
-    fields = {**jets._asdict(), **directions._asdict()}
-    return Output(**{name: fields[name] for name in Output._fields})
-
-
-def make_output(size: int, orders: Any, columns: int) -> Output:
-    """Allocate results for `size` points."""
-    return join(make_jets(size, orders, columns, False), make_directions(size, orders))
+    jets: Jets
+    directions: Directions
