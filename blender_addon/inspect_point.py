@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One point: its directions as a table, its Wavejets row, its neighbourhood as a ball."""
 
+from math import degrees
+
 import bmesh
 import bpy
-import numpy as np
 
 from pdtheory.blender.result import field_of, point_of_vertex, strokes_of
 from pdtheory.conventions import Kind, Status
-from pdtheory.errors import PdtheoryError
+from pdtheory.errors import InputError, PdtheoryError
 
 from .jobs import surface_object
 
@@ -15,39 +16,52 @@ _BALL_KEY = "pdtheory_ball"
 
 
 def active_vertex(thing):
-    """Return the active vertex in edit mode, else the one that the panel names."""
+    """Return the active vertex in edit mode, else the one that the panel names.
+
+    Raises
+    ------
+    InputError
+        If no vertex is active in edit mode.
+    """
     if thing.mode == "EDIT" and thing.type == "MESH":
         active = bmesh.from_edit_mesh(thing.data).select_history.active
-        if isinstance(active, bmesh.types.BMVert):
-            return active.index
+        if not isinstance(active, bmesh.types.BMVert):
+            raise InputError("no vertex is active; click one in vertex select mode.")
+        return active.index
     return thing.principal_directions.point
 
 
 def active_point(thing):
-    """Return (field, index of the point) of the active vertex, or None."""
+    """Return (field, index of the point) of the active vertex.
+
+    Raises
+    ------
+    InputError
+        If there is no result, no active vertex, or no result at it.
+    """
     strokes = strokes_of(thing)
-    if strokes is None:
-        return None
     field = field_of(strokes)
-    point = point_of_vertex(strokes, active_vertex(thing))
-    return None if point is None else (field, point)
+    vertex = active_vertex(thing)
+    point = point_of_vertex(strokes, vertex)
+    if point is None:
+        raise InputError(f"vertex {vertex} has no result; choose another one.")
+    return field, point
 
 
 def table(field, point):
-    """Return the rows of the table: order, kind, angle, eigenvalue and their uncertainties."""
+    """Return the rows of the table: order, kind, angle in degrees and eigenvalue."""
     rows = []
     for order in field.orders:
         directions = field[order]
         if directions.isotropic[point]:
-            rows.append((str(order), "all", "isotropic", ""))
+            rows.append((str(order), "all", "every direction", ""))
         part = directions.at(point)
         for i in range(part.start, part.stop):
             rows.append(
                 (
                     str(order),
                     Kind(int(directions.kind[i])).label,
-                    f"{np.degrees(directions.angle[i]):.1f}° ± "
-                    f"{np.degrees(directions.angle_std[i]):.1f}°",
+                    f"{degrees(directions.angle[i]):.1f} ± {degrees(directions.angle_std[i]):.2g}",
                     f"{directions.eigenvalue[i]:.4g} ± {directions.eigenvalue_std[i]:.2g}",
                 )
             )
@@ -78,9 +92,6 @@ class CopyRow(bpy.types.Operator):
         except PdtheoryError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        if found is None:
-            self.report({"ERROR"}, "the active vertex has no result; choose another")
-            return {"CANCELLED"}
         context.window_manager.clipboard = wavejets_row(*found)
         return {"FINISHED"}
 
@@ -103,14 +114,10 @@ class ShowBall(bpy.types.Operator):
             bpy.data.objects.remove(child)
             return {"FINISHED"}
         try:
-            found = active_point(thing)
+            field, point = active_point(thing)
         except PdtheoryError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        if found is None:
-            self.report({"ERROR"}, "the active vertex has no result; choose another")
-            return {"CANCELLED"}
-        field, point = found
         ball = bpy.data.objects.new(f"{thing.name} neighbourhood", None)
         ball[_BALL_KEY] = True
         ball.empty_display_type = "SPHERE"

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The tab "Directions" in the sidebar of the 3D view."""
 
+import textwrap
+
 import bpy
 
 from pdtheory.blender import compat
@@ -10,6 +12,7 @@ from pdtheory.errors import PdtheoryError
 
 from .inspect_point import active_point, active_vertex, table
 from .jobs import surface_object
+from .polar_plot import plots_of
 
 _LOOK = ("Style", "Length", "By Strength", "Width", "Taper", "Lift", "Follow Surface")
 _CHOICE = (
@@ -21,6 +24,9 @@ _CHOICE = (
     "Least Strength",
     "Largest Uncertainty",
 )
+
+#: Buttons of Blender that a polar plot is wide at least, where there is room for two.
+_PLOT = 11
 
 
 class _DirectionsPanel:
@@ -149,27 +155,71 @@ class DIRECTIONS_PT_point(_DirectionsPanel, bpy.types.Panel):  # noqa: N801
     def draw(self, context):
         layout = self.layout
         thing = surface_object(context)
-        if thing.mode == "EDIT":
-            layout.label(text=f"Active vertex {active_vertex(thing)}", translate=False)
-        else:
+        if thing.mode != "EDIT":
             layout.prop(thing.principal_directions, "point")
         try:
             found = active_point(thing)
+            if thing.mode == "EDIT":
+                layout.label(text=f"Active vertex {active_vertex(thing)}", translate=False)
         except PdtheoryError as error:
-            layout.label(text=str(error), translate=False)
+            _sentence(context, layout, str(error))
             return
-        if found is None:
-            layout.label(text="No result at this vertex")
-            return
-        grid = layout.grid_flow(row_major=True, columns=4, align=True)
-        for heading in ("Order", "Kind", "Angle", "Eigenvalue"):
-            grid.label(text=heading)
+        column = layout.column(align=True)
+        _cells(column, ("Order", "Kind", "Angle (°)", "Eigenvalue"), translate=True)
         for row in table(*found):
-            for text in row:
-                grid.label(text=text, translate=False)
+            _cells(column, row, translate=False)
         row = layout.row(align=True)
         row.operator("principal_directions.copy_row", icon="COPYDOWN")
         row.operator("principal_directions.show_ball", text="", icon="MESH_UVSPHERE")
+
+
+class DIRECTIONS_PT_polar(_DirectionsPanel, bpy.types.Panel):  # noqa: N801
+    """The polar plot of one vertex; it is drawn only while this panel is open."""
+
+    bl_label = "Polar Plot"
+    bl_parent_id = "DIRECTIONS_PT_point"
+    bl_options = {"DEFAULT_CLOSED"}  # noqa: RUF012
+
+    @classmethod
+    def poll(cls, context):
+        try:
+            active_point(surface_object(context))
+        except PdtheoryError:
+            # The panel above says what is amiss.
+            return False
+        return True
+
+    def draw(self, context):
+        layout = self.layout
+        unit = 20.0 * context.preferences.system.ui_scale
+        width = context.region.width - 3.0 * unit
+        columns = max(1, int(width // (_PLOT * unit)))
+        try:
+            icons, sentence = plots_of(surface_object(context), int(width / columns))
+        except PdtheoryError as error:
+            icons, sentence = (), str(error)
+        if sentence:
+            _sentence(context, layout, sentence)
+        grid = layout.grid_flow(row_major=True, columns=columns)
+        for icon in icons:
+            grid.template_icon(icon, scale=width / columns / unit)
+        layout.operator("principal_directions.plot_point", icon="IMAGE_DATA")
+
+
+def _cells(column, texts, *, translate):
+    """Write a row of the table, narrow columns for order and kind."""
+    row = column.split(factor=0.3)
+    order_and_kind, numbers = row.split(factor=0.5), row.split(factor=0.43)
+    for place, text in zip((order_and_kind, order_and_kind, numbers, numbers), texts, strict=True):
+        place.label(text=text, translate=translate)
+
+
+def _sentence(context, layout, text):
+    """Write a sentence in as many lines as it needs; a label alone would be cut off."""
+    letters = max(20, int(context.region.width / (7.0 * context.preferences.system.ui_scale)))
+    column = layout.column(align=True)
+    for line in textwrap.wrap(text, letters):
+        column.label(text=line, translate=False)
 
 
 def _modifier(context):
@@ -187,6 +237,7 @@ _CLASSES = (
     DIRECTIONS_PT_result,
     DIRECTIONS_PT_drawing,
     DIRECTIONS_PT_point,
+    DIRECTIONS_PT_polar,
 )
 
 

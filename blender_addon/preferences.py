@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Preferences: how many cores to use, and where compiled kernels are kept."""
+"""Preferences: how many cores to use, and where libraries keep what they made."""
 
 import os
 
@@ -31,21 +31,24 @@ def thread_count() -> int:
     return chosen or max(2, (os.cpu_count() or 2) - 1)
 
 
-def _keep_kernels() -> None:
-    """Let Numba keep its compiled kernels where the extension may write."""
-    if "NUMBA_CACHE_DIR" in os.environ or not __package__.startswith("bl_ext."):
+def _keep_caches() -> None:
+    """Let libraries keep what they made where the extension may write: kernels, a list of fonts."""
+    if not __package__.startswith("bl_ext."):
         return
-    try:
-        folder = bpy.utils.extension_path_user(__package__, path="kernels", create=True)
-    except (ValueError, OSError):
-        # No place to write: the kernels are compiled anew in each session.
-        return
-    os.environ["NUMBA_CACHE_DIR"] = folder
+    for variable, name in (("NUMBA_CACHE_DIR", "kernels"), ("MPLCONFIGDIR", "plots")):
+        if variable in os.environ:
+            continue
+        try:
+            folder = bpy.utils.extension_path_user(__package__, path=name, create=True)
+        except (ValueError, OSError):
+            # No place to write: it is made anew in each session.
+            return
+        os.environ[variable] = folder
 
 
 def register():
     bpy.utils.register_class(DirectionsPreferences)
-    _keep_kernels()
+    _keep_caches()
 
 
 def unregister():

@@ -13,6 +13,8 @@ _GERMAN = {
     "Show Exact Directions": "Exakte Richtungen zeigen",
     "Show Strength": "Stärke zeigen",
     "Copy Wavejets Row": "Wavejets-Zeile kopieren",
+    "Polar Plot": "Polardiagramm",
+    "Plot as Image": "Als Bild zeichnen",
     "Export Directions": "Richtungen exportieren",
     "Import Directions": "Richtungen importieren",
     "Orders": "Ordnungen",

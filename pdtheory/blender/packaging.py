@@ -25,7 +25,15 @@ PLATFORMS: Final[dict[str, tuple[str, ...]]] = {
 }
 
 #: What is packed beside pdtheory itself; NumPy comes with Blender.
-_LIBRARIES: Final = ("scipy", "numba", "sympy", "mpmath<1.4", "python-flint", "trimesh")
+_LIBRARIES: Final = (
+    "scipy",
+    "numba",
+    "sympy",
+    "mpmath<1.4",
+    "python-flint",
+    "trimesh",
+    "matplotlib",
+)
 
 _NUMPY: Final = "numpy"
 

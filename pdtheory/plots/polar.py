@@ -174,6 +174,31 @@ def save_figure(figure: Any, path: str | os.PathLike[str]) -> None:
         figure.savefig(temporary, dpi=200, metadata=_METADATA[suffix])
 
 
+def figure_pixels(figure: Any, dpi: float) -> npt.NDArray[np.uint8]:
+    """Return a figure as a picture, without a file.
+
+    Parameters
+    ----------
+    figure
+        A matplotlib figure.
+    dpi
+        Pixels for each inch of the figure.
+
+    Returns
+    -------
+    (H, W, 4) uint8
+        Red, green, blue and opacity, the top row first.
+    """
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+    _, rc_context = _matplotlib()
+    with rc_context(_STYLE):
+        figure.set_dpi(dpi)
+        canvas = FigureCanvasAgg(figure)
+        canvas.draw()
+        return np.array(canvas.buffer_rgba(), np.uint8)
+
+
 def figure_svg(figure: Any) -> str:
     """Return a figure as an SVG element that can stand inside an HTML page."""
     _, rc_context = _matplotlib()

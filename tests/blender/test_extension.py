@@ -555,6 +555,84 @@ def test_the_selected_point_of_the_monkey_saddle(operators):
     assert abs(complex(float(real), float(imaginary[:-1]))) == pytest.approx(0.5, rel=1e-4)
 
 
+def test_the_polar_plots_of_the_monkey_saddle(operators):
+    import time
+
+    import bpy
+
+    from blender_addon import polar_plot
+
+    operators.add_monkey(resolution=16)
+    thing = bpy.context.object
+    operators.compute(neighbours=80, degree=6, orders={"2", "3"})
+    started = time.monotonic()
+    assert polar_plot.plots_of(thing, 200) == ([], "Drawing ...")
+    # The panel may not wait for matplotlib, whose import alone takes a good part of a second.
+    assert time.monotonic() - started < 0.2
+    plots = polar_plot._plots
+    while plots._look() is not None:
+        time.sleep(0.02)
+    bpy.app.timers.unregister(plots._timer)
+    icons, sentence = polar_plot.plots_of(thing, 200)
+    assert (len(icons), sentence) == (2, "")
+    assert list(plots.icons) == ["2", "3"]
+    for order, icon in plots.icons.items():
+        width, height = icon.image_size
+        assert (width, height) == (177, 200)
+        values = np.array(icon.image_pixels[:], np.int32).view(np.uint8).reshape(height, width, 4)
+        assert (values[..., 3] == 255).all()
+        # Upright: the heading with the order's colour is at the top, whose rows come last.
+        coloured = np.ptp(values[..., :3].astype(int), axis=-1) > 60
+        assert coloured[-14:].sum() > 20 > coloured[:14].sum(), order
+    # Another vertex has other plots, and nothing is drawn twice at once.
+    thing.principal_directions.point = 40
+    assert polar_plot.plots_of(thing, 200) == ([], "Drawing ...")
+    job = plots._job
+    polar_plot.plots_of(thing, 300)
+    assert plots._job is job
+    job.wait()
+
+
+def test_the_polar_plot_as_an_image(operators):
+    import bpy
+
+    operators.add_monkey(resolution=10)
+    thing = bpy.context.object
+    refused(operators.plot_point, "there is no result on this object")
+    operators.compute(**QUICK)
+    for vertex in (0, 5):
+        thing.principal_directions.point = vertex
+        assert operators.plot_point() == {"FINISHED"}
+        (image,) = bpy.data.images
+        assert image.name == "monkey polar plot"
+        assert tuple(image.size) == (960, 610)
+        assert image.packed_file
+    pixels = np.array(image.pixels[:]).reshape(610, 960, 4)
+    # White at the edges, the blue of order 2 on the left, the green of order 3 on the right.
+    assert pixels[0].min() == 1.0
+    left, right = pixels[:, :480], pixels[:, 480:]
+    assert (left[..., 2] > left[..., :2].max(axis=-1) + 0.3).mean() > 0.002
+    assert (right[..., 1] > right[..., [0, 2]].max(axis=-1) + 0.3).mean() > 0.002
+    thing.principal_directions.point = 10**6
+    refused(operators.plot_point, "vertex 1000000 has no result")
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="DESELECT")
+    refused(operators.plot_point, "no vertex is active")
+    refused(operators.copy_row, "no vertex is active")
+    bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def test_a_point_without_an_answer_has_no_plot(operators):
+    import bpy
+
+    operators.add_monkey(resolution=10)
+    thing = bpy.context.object
+    thing.data.vertices[3].co = (1e3, 1e3, 1e3)
+    operators.compute(radius=0.6, degree=4, orders={"2"})
+    thing.principal_directions.point = 3
+    refused(operators.plot_point, "too few neighbours")
+
+
 def test_the_ball_shows_and_hides(operators):
     import bpy
 

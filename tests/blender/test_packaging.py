@@ -147,6 +147,10 @@ def test_install_enable_compute_uninstall(tmp_path):
 
     runtime = replace(packaging.runtime_for(version), numpy=f"numpy=={np.__version__}")
     package = packaging.build_zip(runtime, "linux-x64", tmp_path / "dist")
+    with zipfile.ZipFile(package) as archive:
+        wheels = {Path(n).name.split("-")[0] for n in archive.namelist() if n.endswith(".whl")}
+    assert {"pdtheory", "scipy", "numba", "sympy", "python_flint", "matplotlib"} <= wheels
+    assert "numpy" not in wheels
     home = tmp_path / "home"
     home.mkdir()
     script = tmp_path / "life.py"
@@ -178,6 +182,7 @@ assert ".local" in pdtheory.__file__, pdtheory.__file__
 bpy.ops.principal_directions.add_monkey(resolution=12)
 bpy.ops.principal_directions.compute(neighbours=40, degree=4, orders={"2", "3"})
 assert "points answered" in bpy.context.object.principal_directions.summary
+assert bpy.ops.principal_directions.plot_point() == {"FINISHED"}
 bpy.ops.extensions.package_uninstall(repo_directory="", repo_index=1, pkg_id="principal_directions")
 assert module not in bpy.context.preferences.addons
 print("lived happily")

@@ -16,6 +16,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from pdtheory.conventions import order_colour
+
 pytestmark = [pytest.mark.gui, pytest.mark.blender]
 
 PROGRAM = os.environ.get("PDTHEORY_REAL_BLENDER")
@@ -117,6 +119,25 @@ def test_eevee_renders_surface_and_strokes(blender):
     red, green, blue = np.moveaxis(picture(folder / "eevee.png"), -1, 0)
     assert (blue > np.maximum(red, green) + 0.08).mean() > 0.002
     assert (green > np.maximum(red, blue) + 0.04).mean() > 0.002
+
+
+def test_the_panel_shows_the_polar_plots_of_a_vertex(blender):
+    report, folder = play(blender, "polar")
+    left, top, right, bottom = report["sidebar"]
+
+    def share(name, order):
+        inside = picture(folder / f"{name}.png")[top:bottom, left:right]
+        # Curves and rays have the colour of their order, a thousandth of the pixels; the rest is
+        # white, grey and pale.
+        off = np.abs(inside - np.array(order_colour(order))).max(axis=-1)
+        return float((off < 0.2).mean())
+
+    for name in ("saddle", "elsewhere"):
+        assert share(name, 2) > 5e-4
+        assert share(name, 3) > 5e-4
+    for name in ("nowhere", "no_vertex"):
+        assert share(name, 2) == share(name, 3) == 0.0
+    assert picture(folder / "image.png").shape == (610, 960, 3)
 
 
 def test_escape_ends_it_within_a_second(blender):

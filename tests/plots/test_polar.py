@@ -11,7 +11,7 @@ import pytest
 
 from pdtheory.conventions import Kind, frequencies, order_colour
 from pdtheory.errors import FileAccessError, InputError, MissingDependencyError
-from pdtheory.plots.polar import PolarTerm, figure_svg, polar_figure, save_figure
+from pdtheory.plots.polar import PolarTerm, figure_pixels, figure_svg, polar_figure, save_figure
 
 pytest.importorskip("matplotlib", reason="matplotlib is not installed (extra figures)")
 
@@ -119,6 +119,16 @@ def test_svg_stands_inside_a_page():
     root = ET.fromstring(figure_svg(polar_figure([MONKEY])))
     assert root.tag == "{http://www.w3.org/2000/svg}svg"
     assert "order 3" in "".join(root.itertext())
+
+
+def test_pixels_are_those_of_the_file(tmp_path):
+    from matplotlib.image import imread
+
+    figure = polar_figure([MONKEY])
+    pixels = figure_pixels(figure, 200)
+    assert pixels.shape == (540, 480, 4)
+    save_figure(figure, tmp_path / "a.png")
+    np.testing.assert_array_equal(pixels, np.round(imread(tmp_path / "a.png") * 255))
 
 
 def test_bad_input_is_refused(tmp_path, monkeypatch):

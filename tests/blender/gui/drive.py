@@ -194,6 +194,46 @@ def scenario_compute():
     shot("redo")
 
 
+def scenario_polar():
+    """Open the panel of the selected point and its plots, and go from one vertex to another."""
+    panels = {n: getattr(bpy.types, f"DIRECTIONS_PT_{n}") for n in ("result", "drawing", "polar")}
+    for panel in panels.values():
+        bpy.utils.unregister_class(panel)
+    for panel in (bpy.types.DIRECTIONS_PT_point, panels["polar"]):
+        if panel.is_registered:
+            bpy.utils.unregister_class(panel)
+        panel.bl_options = set()
+        bpy.utils.register_class(panel)
+    prepare(16)
+    yield from open_tab()
+    # The panels above it would push the plots out of the window.
+    bpy.utils.unregister_class(bpy.types.DIRECTIONS_PT_compute)
+    paint_buttons(QUIET)
+    # Small enough for two plots below the table.
+    bpy.context.preferences.view.ui_scale = 0.7
+    yield 1.0
+    area, _ = view()
+    sidebar = next(r for r in area.regions if r.type == "UI")
+    top = bpy.context.window.height - (sidebar.y + sidebar.height)
+    report["sidebar"] = [sidebar.x, top, sidebar.x + sidebar.width, top + sidebar.height]
+    thing = bpy.context.object
+    thing.principal_directions.point = 10**6
+    bpy.ops.principal_directions.compute(orders={"2", "3"})
+    for name, vertex in (("nowhere", 10**6), ("saddle", 0), ("elsewhere", 40)):
+        thing.principal_directions.point = vertex
+        area.tag_redraw()
+        yield 6.0
+        shot(name)
+    bpy.ops.principal_directions.plot_point()
+    (image,) = (i for i in bpy.data.images if i.name.endswith("polar plot"))
+    image.file_format, image.filepath_raw = "PNG", str(FOLDER / "image.png")
+    image.save()
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="DESELECT")
+    yield 1.0
+    shot("no_vertex")
+
+
 def scenario_eevee():
     prepare(40)
     bpy.ops.principal_directions.compute()
