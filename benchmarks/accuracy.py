@@ -129,7 +129,7 @@ def errors(shape: Implicit, points: np.ndarray, clean: np.ndarray, queries: int,
     angle = np.full(queries, np.nan)
     inside = np.zeros(queries, bool)
     for i in range(queries):
-        at = rows.at(i)
+        at = rows.rows_of(i)
         if at.start == at.stop:
             continue
         j = at.start + int(np.argmax(np.abs(rows.eigenvalue[at])))

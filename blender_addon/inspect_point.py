@@ -55,7 +55,7 @@ def table(field, point):
         directions = field[order]
         if directions.isotropic[point]:
             rows.append((str(order), "all", "every direction", ""))
-        part = directions.at(point)
+        part = directions.rows_of(point)
         for i in range(part.start, part.stop):
             rows.append(
                 (

@@ -94,14 +94,12 @@ class DIRECTIONS_PT_result(_DirectionsPanel, bpy.types.Panel):  # noqa: N801
     def draw(self, context):
         layout = self.layout
         thing = surface_object(context)
-        column = layout.column(align=True)
         for line in thing.principal_directions.summary.splitlines():
-            column.label(text=line, translate=False)
+            _sentence(context, layout, line)
         if thing.principal_directions.surface:
             layout.operator("principal_directions.show_exact", icon="CHECKMARK")
-            column = layout.column(align=True)
             for line in thing.principal_directions.comparison.splitlines():
-                column.label(text=line, translate=False)
+                _sentence(context, layout, line)
         row = layout.row(align=True)
         row.operator("principal_directions.export_field", text="Export", icon="EXPORT")
         row.operator("principal_directions.import_field", text="Import", icon="IMPORT")

@@ -165,7 +165,7 @@ def _agreement(
     largest = np.zeros(len(point))
     np.maximum.at(largest, truth.point_index, np.abs(value))
     for i, at in enumerate(truth.point_index):
-        part = rows.at(int(point[at]))
+        part = rows.rows_of(int(point[at]))
         same = np.flatnonzero(rows.kind[part] == truth.kind[i])
         if not len(same):
             continue
@@ -174,6 +174,4 @@ def _agreement(
         nearest = int(chord.argmin())
         angle[i] = 2.0 * np.arcsin(min(1.0, chord[nearest] / 2.0))
         error[i] = abs(rows.eigenvalue[part][same[nearest]] - value[i]) / largest[at]
-    return Agreement(
-        truth.order, angle, error, sum(len(rows.angle[rows.at(int(i))]) for i in point)
-    )
+    return Agreement(truth.order, angle, error, int(rows.counts[point].sum()))

@@ -17,12 +17,13 @@ from mathutils import Matrix
 
 from pdtheory.blender.glyphs import add_glyphs, fill_mesh, offer_orders
 from pdtheory.blender.source import Source, read_object
-from pdtheory.conventions import UNANSWERED, Status
+from pdtheory.conventions import Status
 from pdtheory.drawing.glyphs import GlyphData, glyph_data
 from pdtheory.errors import InputError
 from pdtheory.pointset.cloud import FloatArray
 from pdtheory.pointset.directions import OrderDirections
 from pdtheory.pointset.field import DirectionField
+from pdtheory.pointset.summary import order_summaries, status_sentences
 
 #: Property of a stroke object that refers to its points.
 POINTS_KEY: Final = "pdtheory_points"
@@ -297,31 +298,10 @@ def describe(field: DirectionField, *, loose: int = 0) -> list[str]:
     loose
         Vertices that were left out since they belong to no face.
     """
-    total = len(field)
-    unanswered = (field.status & int(UNANSWERED)) != 0
-    lines = [f"{total - int(unanswered.sum()):,} of {total:,} points answered"]
+    lines = status_sentences(field.status)
     if loose:
-        lines.append(f"{loose:,} loose vertices left out")
-    words = {
-        Status.NON_FINITE: "have no finite coordinates",
-        Status.TOO_FEW_NEIGHBOURS: "have too few neighbours",
-        Status.DEGENERATE_FRAME: "have no tangent plane",
-        Status.DEGREE_LOWERED: "got a lower degree",
-        Status.ILL_CONDITIONED: "are ill-conditioned",
-        Status.ONE_SIDED: "lie at a boundary",
-        Status.NOT_CONVERGED: "did not converge",
-    }
-    for flag, text in words.items():
-        count = int(((field.status & int(flag)) != 0).sum())
-        if count:
-            lines.append(f"{count:,} {text}")
-    for order in field.orders:
-        rows = field[order]
-        if len(rows):
-            lines.append(
-                f"Order {order}: strength {float(np.median(rows.strength)):.2g}, "
-                f"± {np.degrees(float(np.nanmedian(rows.angle_std))):.2g}°"
-            )
-        else:
-            lines.append(f"Order {order}: no directions")
+        lines.insert(1, f"{loose:,} loose vertices left out.")
+    for row in order_summaries(field):
+        found = f"strength {row.strength:.2g}, ± {row.angle_std:.2g}°"
+        lines.append(f"Order {row.order}: {found if row.maxima + row.minima else 'no directions'}")
     return lines

@@ -185,8 +185,8 @@ class OrderDirections:
         """The minimum principal directions."""
         return self.of_kind(Kind.MINIMUM)
 
-    def at(self, point: int) -> slice:
-        """Return the slice of rows that belong to one point."""
+    def rows_of(self, point: int) -> slice:
+        """Return which rows of the flat columns belong to one point."""
         return slice(int(self.offsets[point]), int(self.offsets[point + 1]))
 
     def take(self, points: IntArray) -> OrderDirections:

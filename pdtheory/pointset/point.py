@@ -280,7 +280,7 @@ def point_directions(field: DirectionField, index: int) -> PointDirections:
     directions = {}
     for order in field.orders:
         rows = field[order]
-        part = rows.at(index)
+        part = rows.rows_of(index)
         directions[order] = tuple(
             Direction(
                 order,

@@ -43,8 +43,8 @@ def _same(field, expected, turn=None, scale=1.0, tolerance=1e-9):
     for order in ORDERS:
         a, b = field[order], expected[order]
         for i in range(len(field)):
-            rows, wanted = a.vector[a.at(i)], b.vector[b.at(i)] @ turn.T
-            sharp = b.angle_std[b.at(i)] < 0.1
+            rows, wanted = a.vectors[i], b.vectors[i] @ turn.T
+            sharp = b.angle_std[b.rows_of(i)] < 0.1
             if len(rows) != len(wanted):
                 assert not sharp.all()
                 continue

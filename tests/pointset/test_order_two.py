@@ -75,7 +75,7 @@ def test_monge_patch():
         values, vectors = np.linalg.eig(
             np.linalg.solve(first, hessian / np.sqrt(1 + zx**2 + zy**2))
         )
-        rows = field[2].at(row)
+        rows = field[2].rows_of(row)
         for kind, which in ((1, np.argmax(values)), (-1, np.argmin(values))):
             found = rows.start + int(np.flatnonzero(field[2].kind[rows] == kind)[0])
             assert abs(field[2].eigenvalue[found] - values[which]) < 2e-4

@@ -46,7 +46,7 @@ def _coverage(field, order):
     inside = []
     for angle, eigenvalue in zip(*_true_maxima(order), strict=True):
         for i in range(len(field)):
-            found = rows.at(i)
+            found = rows.rows_of(i)
             off = np.abs((rows.angle[found] - angle + np.pi) % (2 * np.pi) - np.pi)
             nearest = found.start + int(np.argmin(off))
             ratios = (

@@ -23,10 +23,10 @@ def edge_errors(field: DirectionField) -> FloatArray:
     """Return the angle in degrees between each edge and the nearest order-2 maximum on it."""
     edges = places()[0]
     along = np.abs(np.abs(edges) - 1.0) > 1e-9
-    maxima = field[2].maxima
+    maxima = field[2].maxima.vectors
     result = []
     for index, axis in enumerate(along):
-        cosine = np.abs(maxima.vector[maxima.at(index)] @ axis.astype(float))
+        cosine = np.abs(maxima[index] @ axis.astype(float))
         result.append(np.degrees(np.arccos(np.clip(cosine.max(initial=0.0), 0, 1))))
     return np.array(result)
 
@@ -34,13 +34,13 @@ def edge_errors(field: DirectionField) -> FloatArray:
 def corner_errors(field: DirectionField) -> FloatArray:
     """Return for each corner the largest angle in degrees from an edge to an order-3 maximum."""
     edges, corners = places()
-    maxima = field[3].maxima
+    maxima = field[3].maxima.vectors
     result = []
     for index, corner in enumerate(corners):
         normal = corner / np.linalg.norm(corner)
         edge = -np.diag(corner) + np.outer(corner * normal, normal)
         edge = edge / np.linalg.norm(edge, axis=1, keepdims=True)
-        found = maxima.vector[maxima.at(len(edges) + index)]
+        found = maxima[len(edges) + index]
         cosine = (edge @ found.T).max(axis=1, initial=-1.0)
         result.append(np.degrees(np.arccos(np.clip(cosine.min(), -1, 1))))
     return np.array(result)

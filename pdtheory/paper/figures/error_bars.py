@@ -37,7 +37,7 @@ def deviations(clean: OrderDirections, noisy: OrderDirections) -> FloatArray:
     a, b = noisy.maxima, clean.maxima
     result = []
     for row, point in enumerate(a.point_index):
-        others = b.vector[b.at(int(point))]
+        others = b.vectors[int(point)]
         if a.angle_std[row] < _LARGEST and len(others):
             turn = np.arccos(np.clip(np.max(others @ a.vector[row]), -1, 1))
             result.append(turn / a.angle_std[row])

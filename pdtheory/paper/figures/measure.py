@@ -80,7 +80,7 @@ def angles_in(
     first, second : (3,) array_like
         The axes from which and towards which angles run.
     """
-    vectors = rows.vector[rows.at(point)]
+    vectors = rows.vectors[point]
     return np.sort(np.arctan2(vectors @ np.asarray(second), vectors @ np.asarray(first)) % TURN)
 
 
@@ -116,11 +116,11 @@ def turned(first: OrderDirections, second: OrderDirections) -> FloatArray:
     a, b = first.maxima, second.maxima
     result = []
     for point in np.flatnonzero(np.diff(a.offsets)):
-        rows, others = a.at(int(point)), b.vector[b.at(int(point))]
+        mine, others = a.vectors[int(point)], b.vectors[int(point)]
         if not len(others):
             result.append(180.0)
             continue
-        strongest = a.vector[rows][np.argmax(a.strength[rows])]
+        strongest = mine[np.argmax(a.strengths[int(point)])]
         result.append(float(np.degrees(np.arccos(np.clip(np.max(others @ strongest), -1, 1)))))
     return np.array(result)
 

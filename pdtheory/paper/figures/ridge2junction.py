@@ -64,11 +64,8 @@ def compute(job: Job) -> Outcome:
                     f"the exact expansion; the fit has degree {_DEGREE}",
                 )
             )
-        strongest = {
-            order: field[order].maxima.strength[field[order].maxima.at(0)].max(initial=0.0)
-            for order in (2, 3)
-        }
-        least = np.max(np.abs(field[2].eigenvalue[field[2].at(0)])) / 2 * _RADIUS
+        strongest = {order: field[order].maxima.strengths[0].max(initial=0.0) for order in (2, 3)}
+        least = np.max(np.abs(field[2].eigenvalues[0])) / 2 * _RADIUS
         ratios.append(strongest[3] / least)
         if step != "0":
             up = angles_in(field[3].maxima, 0, [1, 0, 0], [0, 1, 0])
