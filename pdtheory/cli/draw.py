@@ -11,6 +11,7 @@ from pdtheory.cli.options import (
     Azimuth,
     Elevation,
     LargestUncertainty,
+    Strokes,
     Up,
     check_target,
     load_drawable,
@@ -35,7 +36,7 @@ def draw(
         str | None, typer.Option(help="Orders to draw, such as 2,3; all if left out.")
     ] = None,
     kind: Annotated[str, typer.Option(help="Directions to draw: max, min or both.")] = "max",
-    strokes: Annotated[int, typer.Option(help="About how many points carry strokes.", min=1)] = 800,
+    strokes: Strokes = 800,
     largest_uncertainty: LargestUncertainty = 20.0,
     up: Up = None,
     azimuth: Azimuth = None,

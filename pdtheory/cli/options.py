@@ -24,6 +24,7 @@ DRAWABLE = 200_000
 Report = Callable[[float, str], None]
 
 #: Options of every command that makes a picture.
+Strokes = Annotated[int, typer.Option(help="About how many points carry strokes.", min=1)]
 LargestUncertainty = Annotated[
     float, typer.Option(help="Leave out directions less certain than this, in degrees.")
 ]

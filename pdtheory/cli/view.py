@@ -11,6 +11,7 @@ from pdtheory.cli.options import (
     Azimuth,
     Elevation,
     LargestUncertainty,
+    Strokes,
     Up,
     check_target,
     load_drawable,
@@ -34,8 +35,10 @@ def view(
         str | None, typer.Option(help="Orders switched on at first, such as 2,3; all if left out.")
     ] = None,
     kind: Annotated[str, typer.Option(help="Directions to show: max, min or both.")] = "max",
-    strokes: Annotated[int, typer.Option(help="About how many points carry strokes.")] = 800,
-    least_strength: Annotated[float, typer.Option(help="Leave out weaker directions.")] = 0.0,
+    strokes: Strokes = 800,
+    least_strength: Annotated[
+        float, typer.Option(help="Leave out weaker directions.", min=0.0)
+    ] = 0.0,
     largest_uncertainty: LargestUncertainty = 20.0,
     up: Up = None,
     azimuth: Azimuth = None,
