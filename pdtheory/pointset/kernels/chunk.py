@@ -27,12 +27,12 @@ _NON_FINITE = int(Status.NON_FINITE)
 
 
 @inner
-def _write_phi(c: Array, fit: Fit, alpha: float, radius: float, tables: Any, phi: Array) -> None:
-    """Write all Wavejets coefficients in world units, in a frame turned by alpha."""
+def _write_phi(
+    c: Array, fit: Fit, c1: float, s1: float, radius: float, tables: Any, phi: Array
+) -> None:
+    """Write all Wavejets coefficients in world units, in a frame turned by an angle."""
     column = 0
     scale = radius
-    c1 = np.cos(alpha)
-    s1 = np.sin(alpha)
     c2 = c1 * c1 - s1 * s1
     s2 = 2.0 * c1 * s1
     for k in range(fit.top + 1):
@@ -202,12 +202,13 @@ def fit_chunk(
             out.status[q] = fit.status
             continue
         out.status[q] = finish(fit, tangent, w)
-        alpha = output_frame(w.frame, out.frames[q])
-        out.turn[q] = alpha
+        c, s = output_frame(w.frame, out.frames[q])
+        out.turn[q, 0] = c
+        out.turn[q, 1] = s
         out.degree[q] = fit.degree
         out.residual[q] = fit.residual * radius
         out.condition[q] = fit.pivot
-        _write_phi(w.c, fit, alpha, radius, tables, out.phi[q])
+        _write_phi(w.c, fit, c, s, radius, tables, out.phi[q])
         level = 2.3e-16 + coordinate_rounding / radius
         for j in range(len(orders)):
             if orders[j] <= fit.degree:

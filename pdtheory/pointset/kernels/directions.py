@@ -32,11 +32,13 @@ BENCH = layout(
     re=(SIDE,),
     im=(SIDE,),
     samples=(2, SAMPLES + LANES),
+    intervals=(SAMPLES,),
     stack=(DEPTH + 3, 6),
     table=(COEFFICIENTS + SIDE + 2, BATCH * SIDE + LANES),
     kind=(BATCH * SIDE,),
     found=(BATCH,),
     largest=(BATCH,),
+    scale=(BATCH,),
     powers=(SIDE,),
     slopes=(SIDE,),
 )
@@ -99,59 +101,118 @@ def _scale_term(phi: Any, column: int, order: int, unit: float, bench: Any) -> t
 
 
 @steady
+def _bracket(
+    start: int,
+    end: int,
+    j: int,
+    order: int,
+    column: int,
+    radii: Array,
+    jets: Jets,
+    tables: Any,
+    bench: Any,
+    out: Directions,
+) -> int:
+    """Write the brackets of the angles of some points to the table; returns their number.
+
+    Counting the references of whole tuples takes time, so these are handed to a function for many
+    points at once.
+    """
+    total = 0
+    for q in range(start, end):
+        bench.found[q - start] = 0
+        if not jets.degree[q] >= order:
+            continue
+        scale = 1.0
+        for _ in range(order - 1):
+            scale *= radii[q]
+        bench.scale[q - start] = scale
+        largest, swing = _scale_term(jets.phi[q], column, order, scale, bench)
+        bench.largest[q - start] = largest
+        if swing <= jets.blur[q, j]:
+            out.isotropic[j, q] = True
+            continue
+        found = bracket_angles(
+            bench.re,
+            bench.im,
+            order,
+            tables.cosines,
+            tables.sines,
+            bench.samples,
+            bench.intervals,
+            bench.stack,
+            bench.table,
+            bench.kind,
+            total,
+        )
+        bench.found[q - start] = found
+        total += found
+    return total
+
+
+@steady
 def _store(
-    q: int,
-    first: int,
-    count: int,
-    largest: float,
+    start: int,
+    end: int,
+    j: int,
     order: int,
     entry: int,
-    radius: float,
     factorial: float,
     jets: Jets,
     bench: Any,
     row: int,
     out: Directions,
-) -> None:
-    """Write the directions of one point: those of the half circle, then the opposite ones."""
-    unit = factorial / radius ** (order - 1)
+) -> int:
+    """Write the directions of some points from `row` on; returns the first row behind them.
+
+    Those of the half circle come first at each point, then the opposite ones.
+    """
     mirror = -1.0 if order % 2 else 1.0
     table = bench.table
-    frame = jets.frames[q]
     uncertain = jets.covariance.shape[1] > 0
-    turn_c = np.cos(jets.turn[q])
-    turn_s = np.sin(jets.turn[q])
-    for i in range(count):
-        at = first + i
-        c = table[COSINE, at]
-        s = table[SINE, at]
-        g = table[VALUE, at] * largest
-        angle_std = np.nan
-        g_std = np.nan
-        if uncertain:
-            slope, g_std = _deviations(
-                jets.covariance[q],
-                entry,
-                order,
-                c * turn_c - s * turn_s,
-                s * turn_c + c * turn_s,
-                bench,
-            )
-            curvature = abs(table[CURVATURE, at]) * largest
-            angle_std = slope / curvature if curvature > 0.0 else np.inf
-        for half in range(2):
-            to = row + i + half * count
-            sign = mirror if half else 1.0
-            way = -1.0 if half else 1.0
-            out.rows[to, results.ANGLE] = table[ANGLE, at] + half * np.pi
-            for axis in range(3):
-                along = c * frame[0, axis] + s * frame[1, axis]
-                out.rows[to, results.VECTOR + axis] = way * along
-            out.rows[to, results.EIGENVALUE] = sign * g * unit
-            out.rows[to, results.STRENGTH] = abs(g)
-            out.rows[to, results.ANGLE_STD] = angle_std
-            out.rows[to, results.EIGENVALUE_STD] = g_std * unit
-            out.rows[to, results.KIND] = sign * bench.kind[at]
+    at = 0
+    for q in range(start, end):
+        count = int(bench.found[q - start])
+        out.counts[j, q] = 2 * count
+        if count == 0:
+            continue
+        unit = factorial / bench.scale[q - start]
+        largest = bench.largest[q - start]
+        for i in range(count):
+            c = table[COSINE, at]
+            s = table[SINE, at]
+            g = table[VALUE, at] * largest
+            angle_std = np.nan
+            g_std = np.nan
+            if uncertain:
+                turn_c = jets.turn[q, 0]
+                turn_s = jets.turn[q, 1]
+                slope, g_std = _deviations(
+                    jets.covariance[q],
+                    entry,
+                    order,
+                    c * turn_c - s * turn_s,
+                    s * turn_c + c * turn_s,
+                    bench,
+                )
+                curvature = abs(table[CURVATURE, at]) * largest
+                angle_std = slope / curvature if curvature > 0.0 else np.inf
+            for half in range(2):
+                to = row + i + half * count
+                sign = mirror if half else 1.0
+                way = -1.0 if half else 1.0
+                out.rows[to, results.ANGLE] = table[ANGLE, at] + half * np.pi
+                for axis in range(3):
+                    along = c * jets.frames[q, 0, axis] + s * jets.frames[q, 1, axis]
+                    out.rows[to, results.VECTOR + axis] = way * along
+                out.rows[to, results.EIGENVALUE] = sign * g * unit
+                out.rows[to, results.STRENGTH] = abs(g)
+                out.rows[to, results.ANGLE_STD] = angle_std
+                out.rows[to, results.EIGENVALUE_STD] = g_std * unit
+                out.rows[to, results.KIND] = sign * bench.kind[at]
+            at += 1
+        row += 2 * count
+    return row
 
 
 @kernel
@@ -193,50 +254,9 @@ def find_directions(
             if stop[0] != 0:
                 return
             end = min(start + BATCH, len(radii))
-            total = 0
-            for q in range(start, end):
-                bench.found[q - start] = 0
-                if not jets.degree[q] >= order:
-                    continue
-                scale = radii[q] ** (order - 1)
-                largest, swing = _scale_term(jets.phi[q], column, order, scale, bench)
-                bench.largest[q - start] = largest
-                if swing <= jets.blur[q, j]:
-                    out.isotropic[j, q] = True
-                    continue
-                found = bracket_angles(
-                    bench.re,
-                    bench.im,
-                    order,
-                    tables.cosines,
-                    tables.sines,
-                    bench.samples,
-                    bench.stack,
-                    bench.table,
-                    bench.kind,
-                    total,
-                )
-                bench.found[q - start] = found
-                total += found
+            total = _bracket(start, end, j, order, column, radii, jets, tables, bench, out)
             polish(bench.table, order, total)
-            total = 0
-            for q in range(start, end):
-                found = int(bench.found[q - start])
-                _store(
-                    q,
-                    total,
-                    found,
-                    bench.largest[q - start],
-                    order,
-                    entry,
-                    radii[q],
-                    tables.factorial[order],
-                    jets,
-                    bench,
-                    row,
-                    out,
-                )
-                out.counts[j, q] = 2 * found
-                row += 2 * found
-                total += found
+            row = _store(
+                start, end, j, order, entry, tables.factorial[order], jets, bench, row, out
+            )
         entry += (order + 1) * (order + 1)

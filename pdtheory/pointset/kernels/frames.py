@@ -183,7 +183,7 @@ def tilt(frame: Array, a: float, b: float) -> None:
 
 
 @inner
-def output_frame(frame: Array, out: Array) -> float:
+def output_frame(frame: Array, out: Array) -> tuple[float, float]:
     """Write the frame with the same normal and a t1 that depends on the normal only.
 
     t1 is the direction of the projection of the x axis onto the tangent plane, or of the y axis
@@ -191,8 +191,8 @@ def output_frame(frame: Array, out: Array) -> float:
 
     Returns
     -------
-    float
-        Angle of that t1 in the old frame.
+    (float, float)
+        Cosine and sine of the angle of that t1 in the old frame.
     """
     axis = 0 if abs(frame[2, 0]) <= 0.9 else 1
     for i in range(3):
@@ -201,4 +201,5 @@ def output_frame(frame: Array, out: Array) -> float:
     complete(out)
     c = out[0, 0] * frame[0, 0] + out[0, 1] * frame[0, 1] + out[0, 2] * frame[0, 2]
     s = out[0, 0] * frame[1, 0] + out[0, 1] * frame[1, 1] + out[0, 2] * frame[1, 2]
-    return np.arctan2(s, c)
+    size = np.sqrt(c * c + s * s)
+    return c / size, s / size

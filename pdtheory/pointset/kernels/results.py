@@ -21,8 +21,8 @@ class Jets(NamedTuple):
         in world units; smallest relative pivot.
     phi : (Q, M) complex128
         All Wavejets coefficients in these frames, in world units.
-    turn : (Q,) float64
-        Angle of t1 in the frame of the fit.
+    turn : (Q, 2) float64
+        Cosine and sine of the angle of t1 in the frame of the fit.
     blur : (Q, J) float64
         Size that rounding may give to the coefficients of an order, in units of the radius.
     covariance : (Q, sum of (k + 1)^2) float64
@@ -54,7 +54,7 @@ def make_jets(size: int, orders: Any, columns: int, uncertainty: bool) -> Jets:
         np.full(size, np.nan),
         np.zeros(size, np.int64),
         np.full((size, columns), np.nan, np.complex128),
-        np.empty(size),
+        np.empty((size, 2)),
         np.empty((size, len(orders))),
         np.empty((size, entries)),
     )

@@ -13,14 +13,15 @@ from typing import Any
 
 import numpy as np
 
-from pdtheory.pointset.kernels.jit import Array, inner
+from pdtheory.pointset.kernels.jit import Array, IntArray, inner
 from pdtheory.pointset.kernels.lanes import LANES, Lanes, Rows, emit
 from pdtheory.pointset.kernels.tables import SAMPLES
 
 #: Largest number of halvings; below that width two zeros count as a double one.
 DEPTH = 18
-#: Most rounds of Newton steps and bisections, and the relative step at which they end.
-ROUNDS, LAST_STEP = 100, 2e-16
+#: Most rounds of Newton steps and bisections, and the step at which they end: the next one would be
+#: h'' / (2 h') times its square, less than what rounding of h does to the angle.
+ROUNDS, LAST_STEP = 100, 1e-10
 #: Rows of a table of brackets: the angle, the ends of the interval that holds it, h rising (1) or
 #: falling (-1), then g, g'' and the cosine and sine of the angle; from COEFFICIENTS on, real and
 #: imaginary parts of phi_n in turn.
@@ -77,6 +78,36 @@ def _sample(
 
 
 @inner
+def _note(
+    re: Array,
+    im: Array,
+    order: int,
+    low: float,
+    high: float,
+    ha: float,
+    hb: float,
+    change: bool,
+    negative: bool,
+    table: Array,
+    kind: Array,
+    found: int,
+) -> None:
+    """Write down an interval with one zero, where h takes the values ha and hb at the ends."""
+    table[ANGLE, found] = 0.5 * (low + high)
+    table[LOW, found] = low
+    table[HIGH, found] = high
+    table[RISING, found] = 0.0
+    kind[found] = 0.0
+    if change:
+        table[ANGLE, found] = low + (high - low) * abs(ha) / (abs(ha) + abs(hb))
+        table[RISING, found] = 1.0 if hb > ha else -1.0
+        kind[found] = 1.0 if negative else -1.0
+    for j in range(order // 2 + 1):
+        table[COEFFICIENTS + 2 * j, found] = re[j]
+        table[COEFFICIENTS + 2 * j + 1, found] = im[j]
+
+
+@inner
 def bracket_angles(
     re: Array,
     im: Array,
@@ -84,6 +115,7 @@ def bracket_angles(
     cosines: Array,
     sines: Array,
     samples: Array,
+    intervals: IntArray,
     stack: Array,
     table: Array,
     kind: Array,
@@ -102,6 +134,8 @@ def bracket_angles(
         cos(n theta_j) and sin(n theta_j) at theta_j = j pi / SAMPLES.
     samples : (2, SAMPLES + 1) float64
         Scratch for h and h'.
+    intervals : (SAMPLES,) int64
+        Scratch for the intervals that may hold zeros.
     stack : (DEPTH + 3, 6) float64
         Scratch for the halvings.
     table : (rows, >= begin + order) float64
@@ -130,23 +164,38 @@ def bracket_angles(
     width = np.pi / SAMPLES
     finest = width * 2.0 ** (-DEPTH)
     clear = third * width * width / 8.0
+    certain = fourth * width * width / 8.0
     _sample(re, im, order, cosines, sines, samples)
     # h(theta + pi) = (-1)^k h(theta), to the bit, so that a zero at 0 is found once.
     samples[0, SAMPLES] = -samples[0, 0] if parity else samples[0, 0]
     samples[1, SAMPLES] = -samples[1, 0] if parity else samples[1, 0]
-    for sample in range(1, SAMPLES + 1):
+    count = 0
+    for sample in range(1, SAMPLES):
         ha = samples[0, sample - 1]
         hb = samples[0, sample]
-        change = (ha < 0.0) != (hb < 0.0)
-        if not change and sample < SAMPLES and min(abs(ha), abs(hb)) > clear:
+        # Counting with a truth value is faster than jumping, which is often foreseen wrongly.
+        intervals[count] = sample
+        count += int(((ha < 0.0) != (hb < 0.0)) | (min(abs(ha), abs(hb)) <= clear))
+    intervals[count] = SAMPLES
+    for i in range(count + 1):
+        sample = intervals[i]
+        ha = samples[0, sample - 1]
+        hb = samples[0, sample]
+        da = samples[1, sample - 1]
+        db = samples[1, sample]
+        simple = (ha < 0.0) != (hb < 0.0) and sample < SAMPLES
+        if simple and da * db > 0.0 and min(abs(da), abs(db)) > certain:
+            low = (sample - 1) * width
+            _note(re, im, order, low, low + width, ha, hb, True, hb < 0.0, table, kind, found)
+            found += 1
             continue
         top = 0
         stack[0, 0] = (sample - 1) * width
         stack[0, 1] = sample * width
         stack[0, 2] = ha
         stack[0, 3] = hb
-        stack[0, 4] = samples[1, sample - 1]
-        stack[0, 5] = samples[1, sample]
+        stack[0, 4] = da
+        stack[0, 5] = db
         while top >= 0:
             low = stack[top, 0]
             high = stack[top, 1]
@@ -191,18 +240,7 @@ def bracket_angles(
                 continue
             if found == begin + order:
                 break
-            table[ANGLE, found] = 0.5 * (low + high)
-            table[LOW, found] = low
-            table[HIGH, found] = high
-            table[RISING, found] = 0.0
-            kind[found] = 0.0
-            if change:
-                table[ANGLE, found] = low + d * abs(ha) / (abs(ha) + abs(hb))
-                table[RISING, found] = 1.0 if hb > ha else -1.0
-                kind[found] = 1.0 if negative_b else -1.0
-            for j in range(order // 2 + 1):
-                table[COEFFICIENTS + 2 * j, found] = re[j]
-                table[COEFFICIENTS + 2 * j + 1, found] = im[j]
+            _note(re, im, order, low, high, ha, hb, change, negative_b, table, kind, found)
             found += 1
     return found - begin
 
@@ -242,8 +280,9 @@ def polish(to: Lanes, table: Rows, order: Any, count: Any) -> None:
             moved = build.and_(to.get(moves), build.fcmp_ordered("!=", first, zero))
             guess = build.select(moved, guess, at)
             size = to.subtract(guess, at)
-            limit = to.times(to.constant(LAST_STEP), to.add(to.constant(1.0), at))
-            large = build.fcmp_ordered(">", to.times(size, size), to.times(limit, limit))
+            large = build.fcmp_ordered(
+                ">", to.times(size, size), to.constant(LAST_STEP * LAST_STEP)
+            )
             to.put(guess, theta)
             to.put(build.and_(moved, large), moves)
         at = to.get(theta)

@@ -26,6 +26,7 @@ MAX_DEGREE = 14
 _COUNT = (MAX_DEGREE + 1) * (MAX_DEGREE + 2) // 2
 _ROWS, _COLUMNS = padded_rows(_COUNT) + 2, padded_columns(_COUNT)
 _LINE = 64  # bytes of a cache line, where vectors begin best
+_INTEGERS = ("offsets", "intervals")  # the arrays of integers among those of numbers
 
 
 def layout(**shapes: tuple[int, ...]) -> np.dtype[Any]:
@@ -34,7 +35,7 @@ def layout(**shapes: tuple[int, ...]) -> np.dtype[Any]:
     for shape in shapes.values():
         offsets.append(end)
         end += -(-8 * int(np.prod(shape)) // _LINE) * _LINE
-    formats = [("i8" if name == "offsets" else "f8", shape) for name, shape in shapes.items()]
+    formats = [("i8" if name in _INTEGERS else "f8", shape) for name, shape in shapes.items()]
     return np.dtype(
         {"names": list(shapes), "formats": formats, "offsets": offsets, "itemsize": end}
     )
