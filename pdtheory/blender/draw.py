@@ -18,7 +18,7 @@ from typing import BinaryIO, Final, cast
 import numpy as np
 
 from pdtheory.atomic import atomic_path
-from pdtheory.conventions import Kind
+from pdtheory.drawing.choice import Choice, check_choice, check_size
 from pdtheory.drawing.glyphs import CERTAIN
 from pdtheory.drawing.view import View, natural_view
 from pdtheory.errors import ComputationError, InputError
@@ -28,12 +28,6 @@ from pdtheory.pointset.field import DirectionField
 Progress = Callable[[float, str], None]
 
 SUFFIXES: Final = (".png", ".blend")
-
-_KINDS: Final = {
-    "max": frozenset({Kind.MAXIMUM}),
-    "min": frozenset({Kind.MINIMUM}),
-    "both": frozenset({Kind.MAXIMUM, Kind.MINIMUM}),
-}
 
 
 @dataclass(frozen=True)
@@ -49,32 +43,23 @@ class DrawingJob:
         the field.
     target : str
         The file to write, PNG or .blend by its suffix.
-    orders : tuple of int
-        Orders to draw.
-    kinds : frozenset of Kind
-        What to draw of each order.
-    strokes : int
-        About how many points carry strokes.
-    largest_uncertainty : float
-        Directions with a larger standard deviation (radians) are left out.
+    choice : Choice
+        What to draw of the field.
     view : View
         Where the camera stands.
-    resolution : (int, int)
+    size : (int, int)
         Width and height of the picture in pixels.
-    samples : int
+    rays : int
         Rays for each pixel.
     """
 
     field: DirectionField
     cloud: PointCloud | None
     target: str
-    orders: tuple[int, ...]
-    kinds: frozenset[Kind]
-    strokes: int
-    largest_uncertainty: float
+    choice: Choice
     view: View
-    resolution: tuple[int, int]
-    samples: int
+    size: tuple[int, int]
+    rays: int
 
     @property
     def surface_points(self) -> FloatArray:
@@ -91,12 +76,13 @@ def draw_field(
     orders: Iterable[int] | None = None,
     kind: str = "max",
     strokes: int = 800,
+    least_strength: float = 0.0,
     largest_uncertainty: float = CERTAIN,
     up: str | None = None,
     azimuth: float | None = None,
     elevation: float | None = None,
-    resolution: tuple[int, int] = (1200, 900),
-    samples: int = 12,
+    size: tuple[int, int] = (1200, 900),
+    rays: int = 12,
     progress: Progress | None = None,
 ) -> None:
     """Draw directions on their surface with Blender, as a picture on white or as a Blender file.
@@ -119,14 +105,16 @@ def draw_field(
         ``max``, ``min`` or ``both``; minima are thinner where both are drawn.
     strokes
         About how many points carry strokes.
+    least_strength
+        Weaker directions are left out.
     largest_uncertainty
         Directions whose standard deviation is larger (radians) are left out.
     up, azimuth, elevation
         The axis of the data that points up, and the camera's place in degrees; chosen from the
         shape by default (:func:`pdtheory.drawing.view.natural_view`).
-    resolution
+    size
         Width and height of the picture in pixels.
-    samples
+    rays
         Rays for each pixel.
     progress
         Called with a fraction and a text; it may raise :class:`pdtheory.errors.Cancelled`.
@@ -142,18 +130,15 @@ def draw_field(
     ComputationError
         If Blender fails.
     """
-    job = _job(
+    choice = check_choice(
         field,
-        cloud,
-        Path(output),
-        tuple(field.orders if orders is None else orders),
-        kind,
+        orders=orders,
+        kind=kind,
         strokes=strokes,
+        least_strength=least_strength,
         largest_uncertainty=largest_uncertainty,
-        resolution=resolution,
-        samples=samples,
-        place=(up, azimuth, elevation),
     )
+    job = _job(field, cloud, Path(output), choice, (up, azimuth, elevation), size, rays)
     with atomic_path(output) as temporary:
         _run(job, temporary, progress or (lambda fraction, text: None))
 
@@ -162,38 +147,24 @@ def _job(
     field: DirectionField,
     cloud: PointCloud | None,
     output: Path,
-    orders: tuple[int, ...],
-    kind: str,
-    *,
-    strokes: int,
-    largest_uncertainty: float,
-    resolution: tuple[int, int],
-    samples: int,
+    choice: Choice,
     place: tuple[str | None, float | None, float | None],
+    size: tuple[int, int],
+    rays: int,
 ) -> DrawingJob:
     if output.suffix.lower() not in SUFFIXES:
         raise InputError(
             f"cannot draw into {output}: the suffix {output.suffix or '(none)'} is not known; "
             f"use {' or '.join(SUFFIXES)}."
         )
-    if kind not in _KINDS:
-        raise InputError(f"the kind is {kind!r}; give max, min or both.")
-    if strokes < 1:
-        raise InputError(f"the number of strokes is {strokes}; give at least 1.")
-    if samples < 1:
-        raise InputError(f"the number of samples is {samples}; give at least 1.")
-    if not all(16 <= side <= 16384 for side in resolution):
+    if rays < 1:
+        raise InputError(f"rays is {rays}; give at least 1.")
+    kinds = [int(kind) for kind in choice.kinds]
+    if not any(np.isin(field[order].kind, kinds).any() for order in choice.orders):
+        named = ", ".join(map(str, choice.orders)) or "(none)"
         raise InputError(
-            f"the picture is {resolution[0]} x {resolution[1]}; give 16 to 16384 pixels a side."
+            f"the field holds no directions of order {named} to draw (kind {choice.kind})."
         )
-    if not largest_uncertainty >= 0.0:
-        raise InputError(
-            f"the largest uncertainty is {largest_uncertainty}; give an angle of at least 0."
-        )
-    kinds = _KINDS[kind]
-    if not any(np.isin(field[order].kind, [int(k) for k in kinds]).any() for order in orders):
-        named = ", ".join(map(str, orders)) or "(none)"
-        raise InputError(f"the field holds no directions of order {named} to draw (kind {kind}).")
     points = field.points if cloud is None else cloud.points
     finite = np.isfinite(points).all(axis=1)
     if finite.sum() < 3:
@@ -202,18 +173,7 @@ def _job(
     view = natural_view(
         points[finite], field.frames[:, 2], up=up, azimuth=azimuth, elevation=elevation
     )
-    return DrawingJob(
-        field=field,
-        cloud=cloud,
-        target=output.name,
-        orders=orders,
-        kinds=kinds,
-        strokes=strokes,
-        largest_uncertainty=largest_uncertainty,
-        view=view,
-        resolution=resolution,
-        samples=samples,
-    )
+    return DrawingJob(field, cloud, output.name, choice, view, check_size(size), rays)
 
 
 def _run(job: DrawingJob, path: Path, progress: Progress) -> None:

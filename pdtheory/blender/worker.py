@@ -41,7 +41,7 @@ def draw(job: DrawingJob, path: Path, progress: Progress) -> None:
         scene.render_picture(
             stage,
             path,
-            samples=job.samples,
+            samples=job.rays,
             progress=lambda fraction, text: progress(0.1 + 0.9 * fraction, text),
         )
     progress(1.0, "drawn")
@@ -64,7 +64,7 @@ def build_scene(job: DrawingJob) -> Any:
     from pdtheory.drawing.glyphs import glyph_data
 
     stage = scene.new_file()
-    stage.render.resolution_x, stage.render.resolution_y = job.resolution
+    stage.render.resolution_x, stage.render.resolution_y = job.size
     stage.render.resolution_percentage = 100
     points = job.surface_points
     low, high = points.min(axis=0), points.max(axis=0)
@@ -92,17 +92,18 @@ def build_scene(job: DrawingJob) -> Any:
         )
     surface.scale = (scale, scale, scale)
     glyphs = add_glyphs(
-        glyph_data(job.field, job.orders),
+        glyph_data(job.field, job.choice.orders),
         name="Principal directions",
         collection=collection,
         parent=surface,
         origin=origin,
-        strokes=job.strokes,
+        strokes=job.choice.strokes,
     )
     modifier = glyphs.modifiers[0]
-    compat.set_input(modifier, "Maxima", Kind.MAXIMUM in job.kinds)
-    compat.set_input(modifier, "Minima", Kind.MINIMUM in job.kinds)
-    compat.set_input(modifier, "Largest Uncertainty", min(job.largest_uncertainty, 3.15))
+    compat.set_input(modifier, "Maxima", Kind.MAXIMUM in job.choice.kinds)
+    compat.set_input(modifier, "Minima", Kind.MINIMUM in job.choice.kinds)
+    compat.set_input(modifier, "Least Strength", job.choice.least_strength)
+    compat.set_input(modifier, "Largest Uncertainty", min(job.choice.largest_uncertainty, 3.15))
     scene.set_stage(stage, (points - origin) * scale, job.view)
     return stage
 

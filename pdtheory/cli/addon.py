@@ -14,7 +14,9 @@ app = typer.Typer(help="The Blender extension, packed and installed.", no_args_i
 
 @app.command()
 def build(
-    out: Annotated[Path, typer.Option("--out", "-o", help="Folder for the zips.")] = Path("dist"),
+    output: Annotated[Path, typer.Option("--output", "-o", help="Folder for the zips.")] = Path(
+        "dist"
+    ),
     python: Annotated[
         list[str] | None,
         typer.Option(
@@ -38,7 +40,7 @@ def build(
     runtimes = [runtime_for(version) for version in python] if python else RUNTIMES
     for runtime in runtimes:
         for name in platform or PLATFORMS:
-            package = build_zip(runtime, name, out)
+            package = build_zip(runtime, name, output)
             typer.echo(f"{package}  {package.stat().st_size / 1e6:.1f} MB")
 
 

@@ -46,7 +46,7 @@ def demo(
             help="A mesh or point cloud; the rounded cube if left out.", show_default="cube"
         ),
     ] = None,
-    out: Annotated[Path, typer.Option("--out", "-o", help="Folder for the results.")] = Path(
+    output: Annotated[Path, typer.Option("--output", "-o", help="Folder for the results.")] = Path(
         "demo"
     ),
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No progress bars.")] = False,
@@ -60,11 +60,11 @@ def demo(
     console = Console(highlight=False, soft_wrap=True)
     # The scan is read first of all, so that a wrong path is refused at once.
     cloud, surface = _read(model)
-    _prepare(out)
+    _prepare(output)
     _prove_monkey_saddle(console)
     _compare_with_exact(console, quiet)
     field = _estimate(console, cloud, quiet)
-    _write(console, field, surface, out, quiet)
+    _write(console, field, surface, output, quiet)
 
 
 def _read(model: Path | None) -> tuple[PointCloud, PointCloud]:
@@ -80,12 +80,12 @@ def _read(model: Path | None) -> tuple[PointCloud, PointCloud]:
     return cube.sample(CUBE_SAMPLES, seed=1), cube.mesh(CUBE_RESOLUTION)
 
 
-def _prepare(out: Path) -> None:
+def _prepare(output: Path) -> None:
     try:
-        out.mkdir(parents=True, exist_ok=True)
+        output.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise FileAccessError(
-            f"cannot make the folder {out}: {error.strerror}; choose another with --out."
+            f"cannot make the folder {output}: {error.strerror}; choose another with --output."
         ) from error
 
 
@@ -259,15 +259,15 @@ def _estimate(console: Console, cloud: PointCloud, quiet: bool) -> DirectionFiel
 
 
 def _write(
-    console: Console, field: DirectionField, surface: PointCloud, out: Path, quiet: bool
+    console: Console, field: DirectionField, surface: PointCloud, output: Path, quiet: bool
 ) -> None:
     from pdtheory.io import write_field
 
     console.print("\n[bold]4. Files[/bold]")
-    for target in (out / "field.npz", out / "field.ply"):
+    for target in (output / "field.npz", output / "field.ply"):
         write_field(field, target)
         console.print(f"  Wrote {target}")
-    picture = out / "picture.png"
+    picture = output / "picture.png"
     try:
         from pdtheory.blender import draw_field
 

@@ -11,6 +11,7 @@ from pdtheory.cli.options import (
     Azimuth,
     Elevation,
     LargestUncertainty,
+    LeastStrength,
     Strokes,
     Up,
     check_target,
@@ -37,12 +38,13 @@ def draw(
     ] = None,
     kind: Annotated[str, typer.Option(help="Directions to draw: max, min or both.")] = "max",
     strokes: Strokes = 800,
+    least_strength: LeastStrength = 0.0,
     largest_uncertainty: LargestUncertainty = 20.0,
     up: Up = None,
     azimuth: Azimuth = None,
     elevation: Elevation = None,
     size: Annotated[str, typer.Option(help="Width x height of the picture.")] = "1200x900",
-    samples: Annotated[int, typer.Option(help="Rays for each pixel.", min=1)] = 12,
+    rays: Annotated[int, typer.Option(help="Rays for each pixel.", min=1)] = 12,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No progress bar.")] = False,
 ) -> None:
     """Draw directions on their surface with Blender.
@@ -56,7 +58,7 @@ def draw(
 
     check_target(output, (".png", ".blend"))
     wanted = None if orders is None else parse_orders(orders)
-    resolution = parse_size(size)
+    pixels = parse_size(size)
     directions = load_drawable(field)
     cloud = None if mesh is None else read_cloud(mesh)
     with progress_bar("Drawing", quiet=quiet) as report:
@@ -67,11 +69,12 @@ def draw(
             orders=wanted,
             kind=kind,
             strokes=strokes,
+            least_strength=least_strength,
             largest_uncertainty=radians(largest_uncertainty),
             up=up,
             azimuth=azimuth,
             elevation=elevation,
-            resolution=resolution,
-            samples=samples,
+            size=pixels,
+            rays=rays,
             progress=report,
         )

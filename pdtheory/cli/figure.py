@@ -22,7 +22,9 @@ def figure(
         str | None,
         typer.Argument(metavar="NAME|all", help="Name of the figure; without one, list them."),
     ] = None,
-    out: Annotated[Path, typer.Option(help="Folder for pictures and numbers.")] = Path("figures"),
+    output: Annotated[
+        Path, typer.Option("--output", "-o", help="Folder for pictures and numbers.")
+    ] = Path("figures"),
     quality: Annotated[
         Quality, typer.Option(help="small for tests, draft in seconds, paper in minutes.")
     ] = Quality.draft,
@@ -37,7 +39,7 @@ def figure(
 
     The exit code is 1 if a check fails.
 
-    Example: pdtheory figure all --quality draft --models ~/scans --out figures
+    Example: pdtheory figure all --quality draft --models ~/scans -o figures
     """
     from pdtheory.cli.options import progress_bar
     from pdtheory.errors import FileAccessError
@@ -62,7 +64,7 @@ def figure(
             report((len(made) + fraction) / len(names), text)
 
         job = Job(quality.value, models, seed, step)
-        for each in make(names, job, out, data_only=data_only):
+        for each in make(names, job, output, data_only=data_only):
             made.append(each)
             step(0.0, each.figure.name)
     for each in made:
@@ -75,6 +77,6 @@ def figure(
         for path in each.pictures[:1]:
             typer.echo(f"  {path}")
     if name == "all":
-        typer.echo(str(write_index(made, job, out)))
+        typer.echo(str(write_index(made, job, output)))
     if not all(each.holds for each in made):
         raise typer.Exit(1)

@@ -25,6 +25,9 @@ Report = Callable[[float, str], None]
 
 #: Options of every command that makes a picture.
 Strokes = Annotated[int, typer.Option(help="About how many points carry strokes.", min=1)]
+LeastStrength = Annotated[
+    float, typer.Option(help="Leave out weaker directions; strength is |g_k| R^(k-1).", min=0.0)
+]
 LargestUncertainty = Annotated[
     float, typer.Option(help="Leave out directions less certain than this, in degrees.")
 ]

@@ -33,7 +33,7 @@ def sample(
     output: Annotated[
         Path, typer.Option("--output", "-o", help="File to write: .ply .xyz .txt .csv (.obj .stl).")
     ],
-    number: Annotated[int, typer.Option("--number", "-n", help="Number of points.")] = 20_000,
+    samples: Annotated[int, typer.Option("--samples", "-n", help="Number of points.")] = 20_000,
     noise: Annotated[
         float, typer.Option(help="Gaussian noise, in percent of the diagonal of the bounding box.")
     ] = 0.0,
@@ -45,12 +45,13 @@ def sample(
         Method, typer.Option(help="Random by area, evenly spread (blue noise), or a grid.")
     ] = Method.area,
     seed: Annotated[int, typer.Option(help="Seed of all random numbers.")] = 0,
-    param: Annotated[
+    parameter: Annotated[
         list[str] | None,
-        typer.Option("--param", "-p", metavar="NAME=VALUE", help="A parameter; several times."),
+        typer.Option("--parameter", "-p", metavar="NAME=VALUE", help="A parameter; several times."),
     ] = None,
-    mesh: Annotated[
-        int | None, typer.Option(help="Write a triangle mesh of this resolution, not samples.")
+    resolution: Annotated[
+        int | None,
+        typer.Option(help="Write a triangle mesh with so many cells along a side, not samples."),
     ] = None,
 ) -> None:
     """Sample a synthetic surface.
@@ -63,12 +64,12 @@ def sample(
     from pdtheory.io.write import CLOUD_SUFFIXES
 
     check_target(output, CLOUD_SUFFIXES)
-    shape = synthetic_surfaces.get(surface, **_parameters(param or []))
-    if mesh is not None:
-        cloud = shape.mesh(mesh)
+    shape = synthetic_surfaces.get(surface, **_parameters(parameter or []))
+    if resolution is not None:
+        cloud = shape.mesh(resolution)
     else:
         cloud = shape.sample(
-            number,
+            samples,
             method=method.value,
             noise=noise,
             noise_along=noise_along.value,

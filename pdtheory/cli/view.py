@@ -11,6 +11,7 @@ from pdtheory.cli.options import (
     Azimuth,
     Elevation,
     LargestUncertainty,
+    LeastStrength,
     Strokes,
     Up,
     check_target,
@@ -36,9 +37,7 @@ def view(
     ] = None,
     kind: Annotated[str, typer.Option(help="Directions to show: max, min or both.")] = "max",
     strokes: Strokes = 800,
-    least_strength: Annotated[
-        float, typer.Option(help="Leave out weaker directions.", min=0.0)
-    ] = 0.0,
+    least_strength: LeastStrength = 0.0,
     largest_uncertainty: LargestUncertainty = 20.0,
     up: Up = None,
     azimuth: Azimuth = None,
@@ -62,7 +61,7 @@ def view(
     if screenshot is not None:
         check_target(screenshot, (".png",))
     wanted = None if orders is None else parse_orders(orders)
-    resolution = parse_size(size)
+    pixels = parse_size(size)
     directions = load_drawable(field)
     view_field(
         directions,
@@ -75,7 +74,7 @@ def view(
         up=up,
         azimuth=azimuth,
         elevation=elevation,
-        size=resolution,
+        size=pixels,
         screenshot=screenshot,
     )
     if screenshot is not None:

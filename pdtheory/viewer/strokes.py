@@ -2,25 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import Final, NamedTuple
+from typing import Final
 
 import numpy as np
 import numpy.typing as npt
 from scipy.spatial import cKDTree
 
-from pdtheory.conventions import Kind
-from pdtheory.drawing.glyphs import CERTAIN, REACH, GlyphData, glyph_data
+from pdtheory.drawing.choice import Choice
+from pdtheory.drawing.glyphs import REACH, GlyphData, glyph_data
 from pdtheory.errors import InputError
 from pdtheory.pointset.cloud import FloatArray, IntArray
 from pdtheory.pointset.field import DirectionField
-
-KINDS: Final[Mapping[str, tuple[Kind, ...]]] = {
-    "max": (Kind.MAXIMUM,),
-    "min": (Kind.MINIMUM,),
-    "both": (Kind.MAXIMUM, Kind.MINIMUM),
-}
 
 #: Points on a stroke, which follows the curvature of the surface.
 _STEPS: Final = 5
@@ -33,62 +26,6 @@ _LARGEST_BEND: Final = 0.5
 _COVERED: Final = 6
 #: A disc lies so far below its point, as a part of its radius.
 _SUNK: Final = 0.15
-
-
-class Choice(NamedTuple):
-    """What is shown of a field.
-
-    Attributes
-    ----------
-    orders : tuple of int
-        The orders that are switched on.
-    kind : {"max", "min", "both"}
-        The kinds.
-    strokes : int
-        About how many points carry strokes.
-    least_strength : float
-        Weaker directions are left out.
-    largest_uncertainty : float
-        Directions with a larger standard deviation (radians) are left out.
-    """
-
-    orders: tuple[int, ...]
-    kind: str = "max"
-    strokes: int = 800
-    least_strength: float = 0.0
-    largest_uncertainty: float = CERTAIN
-
-
-def check_choice(
-    field: DirectionField,
-    *,
-    orders: Iterable[int] | None,
-    kind: str,
-    strokes: int,
-    least_strength: float,
-    largest_uncertainty: float,
-) -> Choice:
-    """Return the choice, if it can be shown.
-
-    Raises
-    ------
-    InputError
-        If an option cannot be used or the field does not hold an order.
-    """
-    wanted = field.orders if orders is None else tuple(sorted(set(orders)))
-    for order in wanted:
-        field[order]
-    if kind not in KINDS:
-        raise InputError(f"kind is {kind!r}; give {', '.join(KINDS)}.")
-    if strokes < 1:
-        raise InputError(f"strokes is {strokes}; give at least 1.")
-    for name, value in (
-        ("least_strength", least_strength),
-        ("largest_uncertainty", largest_uncertainty),
-    ):
-        if not value >= 0.0:
-            raise InputError(f"{name} is {value}; give a number of at least 0.")
-    return Choice(wanted, kind, int(strokes), least_strength, largest_uncertainty)
 
 
 @dataclass(frozen=True)
@@ -135,7 +72,7 @@ class Strokes:
         Where several orders are switched on the points are dealt to them in turn, so that strokes
         do not lie on top of each other.
         """
-        keep = np.isin(self._column("kind"), [int(kind) for kind in KINDS[choice.kind]])
+        keep = np.isin(self._column("kind"), [int(kind) for kind in choice.kinds])
         # The attributes are in single precision, the spots are not.
         spots, point = self.data.spots, self.data.attributes["point"].astype(np.int64)
         keep &= spots.spacing[point] >= spots.spacing_for(choice.strokes)

@@ -12,12 +12,13 @@ import numpy as np
 
 from pdtheory.atomic import atomic_path
 from pdtheory.conventions import order_colour
+from pdtheory.drawing.choice import Choice, check_choice, check_size
 from pdtheory.drawing.glyphs import CERTAIN
 from pdtheory.drawing.view import View, natural_view
 from pdtheory.errors import ComputationError, InputError, MissingDependencyError
 from pdtheory.pointset.cloud import PointCloud
 from pdtheory.pointset.field import DirectionField
-from pdtheory.viewer.strokes import Choice, Strokes, cells, check_choice, discs
+from pdtheory.viewer.strokes import Strokes, cells, discs
 
 #: Degrees of the camera's field of view, and how much farther it stands than it must.
 _ANGLE: Final = 30.0
@@ -264,8 +265,7 @@ def view_field(
         least_strength=least_strength,
         largest_uncertainty=largest_uncertainty,
     )
-    if not all(16 <= side <= 16384 for side in size):
-        raise InputError(f"size is {size[0]} x {size[1]}; give 16 to 16384 pixels a side.")
+    check_size(size)
     if screenshot is not None and Path(screenshot).suffix.lower() != ".png":
         raise InputError(f"cannot write {screenshot}: pictures of the viewer are .png files.")
     if screenshot is None and not _has_display():

@@ -13,7 +13,7 @@ import pytest
 from pdtheory.blender import draw_field
 from pdtheory.errors import Cancelled, FileAccessError, InputError, MissingDependencyError
 
-SMALL = {"resolution": (96, 72), "samples": 4}
+SMALL = {"size": (96, 72), "rays": 4}
 
 
 def pixels(path):
@@ -114,14 +114,15 @@ def test_size_and_place_do_not_matter(tmp_path, torus_field, factor):
     ("changes", "message"),
     [
         ({"output": "picture.jpg"}, "suffix .jpg is not known"),
-        ({"kind": "all"}, "the kind is 'all'"),
+        ({"kind": "all"}, "kind is 'all'"),
         ({"orders": (7,)}, "order 7 was not computed"),
         ({"orders": ()}, "no directions of order"),
-        ({"strokes": 0}, "number of strokes is 0"),
-        ({"samples": 0}, "number of samples is 0"),
-        ({"resolution": (8, 72)}, "8 x 72"),
+        ({"strokes": 0}, "strokes is 0"),
+        ({"rays": 0}, "rays is 0"),
+        ({"size": (8, 72)}, "8 x 72"),
         ({"up": "w"}, "'w'; give x, y or z"),
         ({"elevation": -10.0}, "elevation is -10"),
+        ({"least_strength": -1.0}, "least_strength is -1"),
         ({"largest_uncertainty": float("nan")}, "uncertainty is nan"),
     ],
 )
@@ -164,7 +165,7 @@ def test_interrupting_ends_at_once_and_leaves_nothing(tmp_path, torus_field):
         "from pdtheory.pointset.field import DirectionField\n"
         "field = DirectionField.load(sys.argv[1])\n"
         "say = lambda fraction, text: print(text, flush=True)\n"
-        "draw_field(field, None, sys.argv[2], samples=4000, progress=say)\n"
+        "draw_field(field, None, sys.argv[2], rays=4000, progress=say)\n"
     )
     drawing = subprocess.Popen(
         [sys.executable, "-c", script, str(tmp_path / "field.npz"), str(output)],

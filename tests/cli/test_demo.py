@@ -28,7 +28,7 @@ def test_demo_without_blender(cli: Run, tmp_path: Path, monkeypatch: pytest.Monk
         raise MissingDependencyError("bpy is absent: pip install 'pdtheory[blender]'.")
 
     monkeypatch.setattr("pdtheory.blender.draw_field", absent)
-    result = cli("demo", "--out", tmp_path / "new" / "demo")
+    result = cli("demo", "--output", tmp_path / "new" / "demo")
     assert result.exit_code == 0, result.output
     assert "Proved" in result.stdout
     assert "3,000 of 3,000 points answered." in result.stdout
@@ -42,20 +42,20 @@ def test_demo_without_blender(cli: Run, tmp_path: Path, monkeypatch: pytest.Monk
 @pytest.mark.usefixtures("small")
 def test_demo_draws_a_model(cli: Run, bumpy_cloud: Path, tmp_path: Path) -> None:
     pytest.importorskip("bpy", reason="the bpy wheel is not installed")
-    result = cli("demo", "--model", bumpy_cloud, "--out", tmp_path, "--quiet")
+    result = cli("demo", "--model", bumpy_cloud, "--output", tmp_path, "--quiet")
     assert result.exit_code == 0, result.output
     assert (tmp_path / "picture.png").read_bytes().startswith(b"\x89PNG")
 
 
 def test_wrong_model_is_refused_at_once(refused: Callable[..., str], tmp_path: Path) -> None:
-    message = refused("demo", "--model", tmp_path / "absent.ply", "--out", tmp_path / "demo")
+    message = refused("demo", "--model", tmp_path / "absent.ply", "--output", tmp_path / "demo")
     assert "no such file" in message
     assert not (tmp_path / "demo").exists()
 
 
 def test_folder_that_cannot_be_made(refused: Callable[..., str], tmp_path: Path) -> None:
     (tmp_path / "file").touch()
-    assert "cannot make the folder" in refused("demo", "--out", tmp_path / "file" / "demo")
+    assert "cannot make the folder" in refused("demo", "--output", tmp_path / "file" / "demo")
 
 
 def monkey() -> SymmetricTensor:

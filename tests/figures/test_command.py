@@ -31,14 +31,14 @@ def test_without_a_name_it_lists_all() -> None:
 
 def test_data_only_writes_numbers_and_no_picture(tmp_path: Path) -> None:
     out = tmp_path / "deep" / "figures"
-    said = run("astroid", "--quality", "small", "--data-only", "--quiet", "--out", str(out))
+    said = run("astroid", "--quality", "small", "--data-only", "--quiet", "--output", str(out))
     assert "holds:" in said
     assert [path.name for path in out.iterdir()] == ["astroid.json"]
 
 
 def test_the_same_seed_gives_the_same_file(tmp_path: Path) -> None:
     for folder in ("a", "b"):
-        run("saddles", "--quality", "small", "--data-only", "-q", "--out", str(tmp_path / folder))
+        run("saddles", "--quality", "small", "--data-only", "-q", "-o", str(tmp_path / folder))
     first, second = ((tmp_path / folder / "saddles.json").read_bytes() for folder in "ab")
     assert first == second
 
@@ -49,15 +49,15 @@ def test_a_check_that_fails_sets_the_exit_code(
     from pdtheory.paper.figures import diagrams
 
     monkeypatch.setattr(diagrams, "equal", lambda *rest: equal("made to fail", 1, 2, "a test"))
-    said = run("deltoid", "--quality", "small", "--data-only", "-q", "--out", str(tmp_path), code=1)
+    said = run("deltoid", "--quality", "small", "--data-only", "-q", "-o", str(tmp_path), code=1)
     assert "FAILS: made to fail" in said
 
 
 def test_refusals(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="no figure 'nothing'"):
-        run("nothing", "--out", str(tmp_path))
+        run("nothing", "-o", str(tmp_path))
     with pytest.raises(FileAccessError, match="no folder"):
-        run("head", "--models", str(tmp_path / "none"), "--out", str(tmp_path))
+        run("head", "--models", str(tmp_path / "none"), "-o", str(tmp_path))
     (tmp_path / "file").write_text("")
     with pytest.raises(FileAccessError, match="cannot make the folder"):
-        run("deltoid", "--data-only", "-q", "--out", str(tmp_path / "file" / "x"))
+        run("deltoid", "--data-only", "-q", "-o", str(tmp_path / "file" / "x"))

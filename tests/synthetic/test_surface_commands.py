@@ -39,7 +39,7 @@ def test_sample_writes_what_the_library_samples(tmp_path: Path) -> None:
 
 
 def test_sample_writes_a_mesh(tmp_path: Path) -> None:
-    run("sample", "cube", "--mesh", "4", "-o", str(tmp_path / "cube.ply"))
+    run("sample", "cube", "--resolution", "4", "-o", str(tmp_path / "cube.ply"))
     faces = read_cloud(tmp_path / "cube.ply").faces
     assert faces is not None
     assert len(faces) == 6 * 4 * 4 * 2

@@ -10,9 +10,10 @@ import numpy as np
 import pytest
 
 from pdtheory.conventions import order_colour
+from pdtheory.drawing.choice import Choice, check_choice
 from pdtheory.errors import ComputationError, InputError, MissingDependencyError
 from pdtheory.pointset import DirectionField, PointCloud, estimate_directions
-from pdtheory.viewer.strokes import Choice, Strokes, cells, check_choice, discs
+from pdtheory.viewer.strokes import Strokes, cells, discs
 from pdtheory.viewer.window import FieldView, _view, view_field, widget
 from tests.pointset.surfaces import torus
 
