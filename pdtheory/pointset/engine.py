@@ -85,10 +85,10 @@ class Engine:
             assert choice.neighbours is not None
             size = extent * float(np.sqrt(choice.neighbours / len(points)))
         self._grid: Grid
-        self._grid, _ = build_grid(points, size)
+        self._grid, order = build_grid(points, size)
         self._tree: Any = None
         if choice.radius is None:
-            self._tree = cKDTree(self._grid.points)
+            self._tree = cKDTree(points[order])
         else:
             refuse_crowd(int(np.diff(self._grid.starts).max()), choice)
         self._valid = np.isfinite(queries).all(axis=1)

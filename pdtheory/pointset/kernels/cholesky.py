@@ -30,11 +30,11 @@ def padded_columns(count: int) -> int:
 
 
 @emit
-def fill_gram(to: Lanes, sums: Rows, heights: Rows, degree: Any, offsets: Rows, gram: Rows) -> None:
+def fill_gram(to: Lanes, sums: Rows, heights: Rows, degree: Any, ordered: Rows, gram: Rows) -> None:
     """Fill the Gram matrix from the sums of w x^a y^b and w z x^a y^b.
 
-    The powers of two monomials add up to those of their product, so with a monomial encoded as its
-    offset in the table of sums, the offsets add up as well.
+    With the sums sorted by degree and power of y, a row of the matrix holds, for all monomials of
+    one degree, numbers that follow one another in the sums.
 
     Parameters
     ----------
@@ -42,29 +42,31 @@ def fill_gram(to: Lanes, sums: Rows, heights: Rows, degree: Any, offsets: Rows, 
         From `sum_products`, to twice the degree and to the degree.
     degree : int
         The degree K.
-    offsets : (padded_columns,) int64
-        Zeros; receives the offsets.
+    ordered : (>= 2 K + 1, >= 2 K + 1 + LANES) float64
+        Scratch for the sorted sums.
     gram : (rows + 1, padded_columns) float64
         Receives the lower triangle, and finite numbers as far behind it as the factorization looks.
     """
+    with to.count(0, to.plus(degree, degree, 1)) as d, to.count(0, to.plus(d, 1)) as b:
+        to.put(to.get(sums.at(to.minus(d, b), b)), ordered.at(d, b))
     row = to.variable(to.integer(1))
-    stride = to.plus(sums.stride, -1)
     with to.count(0, to.plus(degree, 1)) as lower:
         d = to.minus(degree, lower)
         with to.count(0, to.plus(d, 1)) as b:
             i = to.get(row)
-            to.put(to.minus(to.mul(d, sums.stride), to.mul(b, stride)), offsets.at(i))
             to.put(to.get(heights.at(to.minus(d, b), b)), gram.at(i, 0))
+            column = to.variable(to.integer(1))
+            with to.count(0, to.plus(lower, 1)) as above:
+                other = to.minus(degree, above)
+                source, place = to.plus(d, other), to.get(column)
+                with to.count(0, to.plus(other, 1), LANES) as k:
+                    value = to.load(ordered.at(source, to.plus(b, k)))
+                    to.store(value, gram.at(i, to.plus(place, k)))
+                to.put(to.plus(place, other, 1), column)
+            with to.count(to.get(column), to.plus(i, PANEL + LANES), LANES) as k:
+                to.store(to.constant(0.0), gram.at(i, k))
             to.put(to.plus(i, 1), row)
     count = to.get(row)
-    with to.count(1, count) as i:
-        base = to.get(offsets.at(i))
-        right = to.get(gram.at(i, 0))
-        with to.count(0, to.plus(i, PANEL + LANES), LANES) as k:
-            for lane in range(LANES):
-                j = to.plus(k, lane)
-                to.put(to.get(sums.at(to.plus(base, to.get(offsets.at(j))))), gram.at(i, j))
-        to.put(right, gram.at(i, 0))
     whole = to.plus(to.mul(to.div(to.plus(count, PANEL - 2), PANEL), PANEL), 1)
     with to.count(count, whole) as i:
         with to.count(0, to.plus(i, PANEL + LANES), LANES) as k:

@@ -11,11 +11,12 @@ from pdtheory.pointset.kernels.fit import FRAME_TANGENT, OUTSIDE, Fit, Settings,
 from pdtheory.pointset.kernels.frames import output_frame
 from pdtheory.pointset.kernels.grid import COLUMNS, Grid, find_runs, gather, gather_listed, locate
 from pdtheory.pointset.kernels.jit import Array, IntArray, inner, kernel
-from pdtheory.pointset.kernels.lanes import LANES
+from pdtheory.pointset.kernels.lanes import LANES, Lanes, Rows, emit
 from pdtheory.pointset.kernels.moments import SQUARED
 from pdtheory.pointset.kernels.regression import degree_start
 from pdtheory.pointset.kernels.results import Jets
 from pdtheory.pointset.kernels.reweighting import fit_robustly
+from pdtheory.pointset.kernels.tables import MAX_DEGREE, SIDE
 from pdtheory.pointset.kernels.uncertainty import (
     order_covariance,
     prepare_covariances,
@@ -26,34 +27,69 @@ _UNANSWERED = int(Status.TOO_FEW_NEIGHBOURS | Status.DEGENERATE_FRAME)
 _NON_FINITE = int(Status.NON_FINITE)
 
 
+@emit
+def _transform(
+    to: Lanes, c: Rows, degree: Any, real: Rows, imaginary: Rows, turns: Rows, scale: Any, out: Rows
+) -> None:
+    """Write real and imaginary parts of all phi_{k,n} to the rows of `out`.
+
+    Parameters
+    ----------
+    c : (> coefficient count,) float64
+        Coefficients, by descending degree from index 1 on.
+    degree : int
+        The degree.
+    real, imaginary
+        From the tables.
+    turns : (4, SIDE / 2) float64
+        Cosines of n alpha for n = 0, 2, ..., then sines, then the same for n = 1, 3, ....
+    scale : float
+        The radius.
+    out : (2, > coefficient count / 2 + LANES) float64
+        Receives the coefficients in world units, in a frame turned by alpha.
+    """
+    columns = range(0, SIDE // 2, LANES)
+    place = to.variable(to.integer(0))
+    unit = to.variable(scale)
+    start = to.variable(to.div(to.mul(to.plus(degree, 1), to.plus(degree, 2)), 2))
+    with to.count(0, to.plus(degree, 1)) as k:
+        turn = to.mul(to.minus(k, to.mul(to.div(k, 2), 2)), 2)
+        first, at = to.get(start), to.get(place)
+        for j in columns:
+            sums = [to.variable(to.constant(0.0)) for _ in range(2)]
+            with to.count(0, to.plus(k, 1)) as b:
+                value = to.spread(to.get(c.at(to.plus(first, b))))
+                row = to.plus(to.mul(k, MAX_DEGREE + 1), b)
+                for total, table in zip(sums, (real, imaginary), strict=True):
+                    term = to.times(value, to.load(table.at(row, j)))
+                    to.put(to.add(term, to.get(total)), total)
+            world = to.spread(to.get(unit))
+            re, im = (to.times(to.get(total), world) for total in sums)
+            cos, sin = to.load(turns.at(turn, j)), to.load(turns.at(to.plus(turn, 1), j))
+            # What goes beyond the order is written over by the next one.
+            turned = to.subtract(to.times(re, cos), to.times(im, sin))
+            to.store(turned, out.at(0, to.plus(at, j)))
+            to.store(to.add(to.times(re, sin), to.times(im, cos)), out.at(1, to.plus(at, j)))
+        to.put(to.plus(at, to.div(k, 2), 1), place)
+        to.put(to.minus(first, to.plus(k, 2)), start)
+        to.put(to.builder.fdiv(to.get(unit), scale), unit)
+
+
 @inner
 def _write_phi(
-    c: Array, fit: Fit, c1: float, s1: float, radius: float, tables: Any, phi: Array
+    c: Array, fit: Fit, c1: float, s1: float, radius: float, tables: Any, w: Any, phi: Array
 ) -> None:
     """Write all Wavejets coefficients in world units, in a frame turned by an angle."""
-    column = 0
-    scale = radius
-    c2 = c1 * c1 - s1 * s1
-    s2 = 2.0 * c1 * s1
-    for k in range(fit.top + 1):
-        start = degree_start(fit.top, k)
-        turn_re = c1 if k % 2 else 1.0
-        turn_im = s1 if k % 2 else 0.0
-        for j in range(k // 2 + 1):
-            re = 0.0
-            im = 0.0
-            for b in range(0, k + 1, 2):
-                re += tables.real[k, j, b] * c[start + b]
-            for b in range(1, k + 1, 2):
-                im += tables.imaginary[k, j, b] * c[start + b]
-            phi[column] = complex(
-                (re * turn_re - im * turn_im) * scale, (re * turn_im + im * turn_re) * scale
-            )
-            column += 1
-            turn_re, turn_im = turn_re * c2 - turn_im * s2, turn_re * s2 + turn_im * c2
-        scale /= radius
-    for i in range(column, len(phi)):
-        phi[i] = 0.0
+    re = 1.0
+    im = 0.0
+    for n in range(SIDE):
+        row = 2 * (n % 2)
+        w.turns[row, n // 2] = re
+        w.turns[row + 1, n // 2] = im
+        re, im = re * c1 - im * s1, re * s1 + im * c1
+    _transform(c, fit.top, tables.real, tables.imaginary, w.turns, radius, w.planar)
+    for i in range(len(phi)):
+        phi[i] = complex(w.planar[0, i], w.planar[1, i])
 
 
 @inner
@@ -129,7 +165,7 @@ def fit_chunk(
     references : (Q, 3) float64
         Vectors that say on which side the normals are.
     lists : (Q, N) int64 or (0, 0)
-        Neighbours as indices of ``grid.points``; empty to look them up within the radius.
+        Neighbours as columns of ``grid.columns``; empty to look them up within the radius.
     valid : (Q,) bool
         False where the query is not finite.
     orders : (J,) int64
@@ -185,9 +221,9 @@ def fit_chunk(
             out.status[q] = _UNANSWERED
             continue
         if lists.shape[0] > 0:
-            points = gather_listed(grid.points, lists[q], queries[q], radius, cloud)
+            points = gather_listed(grid.columns, lists[q], queries[q], radius, cloud)
         else:
-            points = gather(grid.points, runs, count, queries[q], reach * radius, radius, cloud)
+            points = int(gather(grid.columns, runs, count, queries[q], reach, radius, cloud))
         n = points
         while n % LANES:
             for row in range(SQUARED):
@@ -208,7 +244,7 @@ def fit_chunk(
         out.degree[q] = fit.degree
         out.residual[q] = fit.residual * radius
         out.condition[q] = fit.pivot
-        _write_phi(w.c, fit, c, s, radius, tables, out.phi[q])
+        _write_phi(w.c, fit, c, s, radius, tables, w, out.phi[q])
         level = 2.3e-16 + coordinate_rounding / radius
         for j in range(len(orders)):
             if orders[j] <= fit.degree:

@@ -12,18 +12,18 @@ from pdtheory.pointset.kernels.jit import Array, inner
 from pdtheory.pointset.kernels.lanes import LANES, Lanes, Rows, emit
 from pdtheory.pointset.kernels.moments import DX, DY, DZ, SQUARED, WEIGHT, X, Y, Z
 from pdtheory.pointset.kernels.regression import (
-    REFINE_PIVOT,
     degree_start,
     doubtful,
     misfit,
     refine,
     regress,
+    rounding_counts,
 )
-from pdtheory.pointset.kernels.tilting import shift, tilt_matters, untilt
+from pdtheory.pointset.kernels.tilting import gradient, shift, tilt_matters, untilt
 
 #: Frames: tangent to the fitted surface, principal axes, normal to the given vectors.
 FRAME_TANGENT, FRAME_PRINCIPAL, FRAME_GIVEN = 0, 1, 2
-#: Degree of the fit that tilts the frame first.
+#: Degree of the fit that tilts the frame first; that of a fit of no higher degree is one less.
 PREFIT_DEGREE = 4
 #: Neighbours that a fit must have for each coefficient.
 MARGIN = 1.25
@@ -201,7 +201,7 @@ def affordable_degree(n: int, degree: int) -> int:
 def choose_frame(cloud: Array, n: int, reference: Array, settings: Settings, w: Any) -> int:
     """Set ``w.frame`` from the principal axes or the given vector; returns the status."""
     frame = w.frame
-    if not principal_frame(cloud, n, w.A, w.Q, w.plane, w.spread, frame):
+    if not principal_frame(cloud, n, w.B, w.A, w.Q, w.plane, w.spread, frame):
         return _DEGENERATE
     if settings.frame == FRAME_GIVEN:
         for i in range(3):
@@ -217,6 +217,25 @@ def choose_frame(cloud: Array, n: int, reference: Array, settings: Settings, w: 
     if not face(frame, reference[0], reference[1], reference[2]) or not settings.oriented:
         return _UNORIENTED
     return 0
+
+
+@inner
+def prefit(
+    cloud: Array,
+    points: int,
+    n: int,
+    degree: int,
+    reference: Array,
+    settings: Settings,
+    w: Any,
+) -> None:
+    """Tilt the frame by the gradient of a fit of low degree."""
+    cx, cy, _ = project(cloud, points, n, settings.planar, w)
+    reached, _ = regress(cloud, WEIGHT, n, degree, w)
+    a, b = gradient(w.c, degree, -cx, -cy, w.powers)
+    if reached >= 1 and a * a + b * b < 1.0:
+        tilt(w.frame, a, b)
+        face(w.frame, reference[0], reference[1], reference[2])
 
 
 @inner
@@ -254,35 +273,30 @@ def fit_point(
     status |= choose_frame(cloud, n, reference, settings, w)
     if status & _DEGENERATE:
         return Fit(status, 0, 0, 0.0, 0.0, np.nan, np.nan, inside)
-    # The first of the passes is the preliminary one, of low degree.
     tangent = settings.frame == FRAME_TANGENT
-    turn = -1 if tangent and degree > PREFIT_DEGREE else 0
+    if tangent and degree > 2:
+        prefit(cloud, points, n, min(PREFIT_DEGREE, degree - 1), reference, settings, w)
     turns = RETILTS if tangent else 0
     trusted = TRUST_L1 if settings.robust else 1.0
+    turn = 0
     while True:
-        fitted = PREFIT_DEGREE if turn < 0 else degree
         cx, cy, weight = project(cloud, points, n, settings.planar, w)
-        reached, pivot = regress(cloud, WEIGHT, n, fitted, w)
-        residual = 0.0
-        if turn >= 0:
-            if reached < 0:
-                return Fit(status | _DEGENERATE, 0, 0, 0.0, 0.0, np.nan, np.nan, inside)
-            if pivot < REFINE_PIVOT:
-                refine(cloud, WEIGHT, n, degree, w)
+        reached, pivot = regress(cloud, WEIGHT, n, degree, w)
+        if reached < 0:
+            return Fit(status | _DEGENERATE, 0, 0, 0.0, 0.0, np.nan, np.nan, inside)
+        residual = misfit(cloud, n, degree, weight, w)
+        refined = rounding_counts(pivot, residual)
+        if refined:
+            refine(cloud, WEIGHT, n, degree, w)
             residual = misfit(cloud, n, degree, weight, w)
-        shift(w.c, fitted, cx, cy, w.table, w.middle)
-        last = degree_start(fitted, 0)
-        a = w.c[last - 2]
-        b = w.c[last - 1]
-        if turn >= 0:
-            if turn == turns or not tilt_matters(w.c, degree, trusted * residual, w.norms):
-                break
-        elif reached < 1 or a * a + b * b >= 1.0:
-            a = b = 0.0
+        shift(w.c, degree, cx, cy, w.table, w.middle)
+        if turn == turns or not tilt_matters(w.c, degree, trusted * residual, w.norms):
+            break
         turn += 1
-        tilt(w.frame, a, b)
+        last = degree_start(degree, 0)
+        tilt(w.frame, w.c[last - 2], w.c[last - 1])
         face(w.frame, reference[0], reference[1], reference[2])
-    if pivot < REFINE_PIVOT:
+    if refined:
         status |= _REFINED
     return Fit(status, reached, degree, cx, cy, residual, pivot, inside)
 

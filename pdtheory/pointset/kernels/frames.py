@@ -17,17 +17,21 @@ ROUNDS = 2
 
 
 @inner
-def symmetric_axes(A: Array, Q: Array) -> None:
+def symmetric_axes(S: Array, A: Array, Q: Array) -> None:
     """Diagonalize a symmetric 3x3 matrix by Jacobi rotations.
 
-    `A` is left diagonal; the columns of `Q` are the axes.
+    `A` is left diagonal; the columns of `Q`, axes to begin with, become those of the matrix.
     """
     for i in range(3):
-        for j in range(3):
-            Q[i, j] = 1.0 if i == j else 0.0
+        for j in range(i, 3):
+            total = 0.0
+            for r in range(3):
+                for t in range(3):
+                    total += Q[r, i] * S[r, t] * Q[t, j]
+            A[i, j] = A[j, i] = total
     for _ in range(30):
         off = abs(A[0, 1]) + abs(A[0, 2]) + abs(A[1, 2])
-        if off <= 1e-18 * (abs(A[0, 0]) + abs(A[1, 1]) + abs(A[2, 2])):
+        if off <= 1e-16 * (abs(A[0, 0]) + abs(A[1, 1]) + abs(A[2, 2])):
             break
         for p in range(2):
             for q in range(p + 1, 3):
@@ -82,7 +86,7 @@ def _sum_spread(to: Lanes, cloud: Rows, n: Any, plane: Rows, out: Rows) -> None:
 
 @inner
 def principal_frame(
-    cloud: Array, n: int, A: Array, Q: Array, plane: Array, sums: Array, frame: Array
+    cloud: Array, n: int, S: Array, A: Array, Q: Array, plane: Array, sums: Array, frame: Array
 ) -> bool:
     """Write the robust principal axes of n weighted points, centred on their mean.
 
@@ -95,7 +99,7 @@ def principal_frame(
         Points relative to the origin of the frame, and their weights.
     n : int
         Number of points, a multiple of LANES.
-    A, Q : (3, 3) float64
+    S, A, Q : (3, 3) float64
         Scratch.
     plane, sums : (>= 5,), (>= 10 + LANES,) float64
         Scratch.
@@ -109,6 +113,9 @@ def principal_frame(
     """
     for i in range(5):
         plane[i] = 0.0
+    for i in range(3):
+        for j in range(3):
+            Q[i, j] = 1.0 if i == j else 0.0
     for _ in range(ROUNDS + 1):
         _sum_spread(cloud, n, plane, sums)
         s = sums[0]
@@ -117,9 +124,9 @@ def principal_frame(
         k = 4
         for i in range(3):
             for j in range(i, 3):
-                A[i, j] = A[j, i] = sums[k] / s - (sums[1 + i] / s) * (sums[1 + j] / s)
+                S[i, j] = S[j, i] = sums[k] / s - (sums[1 + i] / s) * (sums[1 + j] / s)
                 k += 1
-        symmetric_axes(A, Q)
+        symmetric_axes(S, A, Q)
         low = 0
         high = 0
         for i in range(1, 3):

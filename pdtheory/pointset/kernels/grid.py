@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from pdtheory.pointset.kernels.jit import Array, IntArray, inner
+from pdtheory.pointset.kernels.lanes import LANES, Lanes, Rows, emit
 
 #: Cells on each side of the own one that a ball can touch: the cell is at least half a radius.
 REACH = 2
@@ -23,8 +24,8 @@ class Grid(NamedTuple):
 
     Attributes
     ----------
-    points : (P, 3) float64
-        Points, sorted by cell.
+    columns : (3, P + LANES) float64
+        Coordinates of the points, sorted by cell, and zeros.
     keys : (C,) int64
         Numbers of the occupied cells, ascending.
     starts : (C + 1,) int64
@@ -37,7 +38,7 @@ class Grid(NamedTuple):
         Edge of a cell.
     """
 
-    points: Any
+    columns: Any
     keys: Any
     starts: Any
     shape: Any
@@ -46,10 +47,8 @@ class Grid(NamedTuple):
 
 
 @inner
-def _lower_bound(keys: IntArray, key: int) -> int:
-    """Index of the first entry >= key."""
-    low = 0
-    high = len(keys)
+def _lower_bound(keys: IntArray, key: int, low: int, high: int) -> int:
+    """Index of the first entry >= key, known to be in low..high."""
     while low < high:
         middle = (low + high) // 2
         if keys[middle] < key:
@@ -77,8 +76,11 @@ def find_runs(grid: Grid, ix: int, iy: int, iz: int, runs: IntArray) -> tuple[in
     for jx in range(max(ix - REACH, 0), min(ix + REACH, grid.shape[0] - 1) + 1):
         for jy in range(max(iy - REACH, 0), min(iy + REACH, grid.shape[1] - 1) + 1):
             column = (jx * grid.shape[1] + jy) * grid.shape[2]
-            start = grid.starts[_lower_bound(grid.keys, column + low_z)]
-            stop = grid.starts[_lower_bound(grid.keys, column + high_z + 1)]
+            low = _lower_bound(grid.keys, column + low_z, 0, len(grid.keys))
+            high = min(low + high_z - low_z + 1, len(grid.keys))
+            high = _lower_bound(grid.keys, column + high_z + 1, low, high)
+            start = grid.starts[low]
+            stop = grid.starts[high]
             if stop > start:
                 runs[count, 0] = start
                 runs[count, 1] = stop
@@ -95,56 +97,58 @@ def locate(grid: Grid, query: Array, here: IntArray) -> None:
         here[axis] = int(min(max(at, -2.0 * REACH), grid.shape[axis] + 2.0 * REACH))
 
 
-@inner
+@emit
 def gather(
-    points: Array,
-    runs: IntArray,
-    count: int,
-    query: Array,
-    reach: float,
-    radius: float,
-    cloud: Array,
-) -> int:
-    """Collect the points within `reach` of a query, relative to it, in units of the radius.
+    to: Lanes,
+    columns: Rows,
+    runs: Rows,
+    count: Any,
+    query: Rows,
+    reach: Any,
+    radius: Any,
+    cloud: Rows,
+) -> float:
+    """Collect the points within `reach` radii of a query, relative to it, in units of the radius.
 
     Returns
     -------
-    int
+    float
         Their number n; ``cloud[0:3, :n]`` holds the coordinates, ``cloud[3, :n]`` the squared
         distances.
     """
-    n = 0
-    limit = reach * reach
-    scale = 1.0 / radius
-    qx = query[0]
-    qy = query[1]
-    qz = query[2]
-    for r in range(count):
-        for i in range(runs[r, 0], runs[r, 1]):
-            x = points[i, 0] - qx
-            y = points[i, 1] - qy
-            z = points[i, 2] - qz
-            d = x * x + y * y + z * z
-            cloud[0, n] = x * scale
-            cloud[1, n] = y * scale
-            cloud[2, n] = z * scale
-            cloud[3, n] = d * scale * scale
-            if d <= limit:
-                n += 1
-    return n
+    n = to.variable(to.integer(0))
+    scale = to.spread(to.builder.fdiv(to.real(1.0), radius))
+    limit = to.spread(to.builder.fmul(reach, reach))
+    centre = [to.spread(to.get(query.at(axis))) for axis in range(3)]
+    with to.count(0, count) as run:
+        start, stop = to.get(runs.at(run, 0)), to.get(runs.at(run, 1))
+        with to.count(start, stop, LANES) as i:
+            p = [
+                to.times(to.subtract(to.load(columns.at(axis, i)), centre[axis]), scale)
+                for axis in range(3)
+            ]
+            squared = to.times(p[0], p[0])
+            for x in p[1:]:
+                squared = to.add(to.times(x, x), squared)
+            near = to.builder.fcmp_ordered("<=", squared, limit)
+            near = to.builder.and_(near, to.below(to.minus(stop, i)))
+            at = to.get(n)
+            to.pack([*p, squared], near, [cloud.at(row, at) for row in range(4)])
+            to.put(to.plus(at, to.number(near)), n)
+    return to.builder.sitofp(to.get(n), to.real(0.0).type)
 
 
 @inner
 def gather_listed(
-    points: Array, members: IntArray, query: Array, radius: float, cloud: Array
+    columns: Array, members: IntArray, query: Array, radius: float, cloud: Array
 ) -> int:
     """Collect the listed points as `gather` does; returns their number."""
     scale = 1.0 / radius
     for j in range(len(members)):
         i = members[j]
-        x = (points[i, 0] - query[0]) * scale
-        y = (points[i, 1] - query[1]) * scale
-        z = (points[i, 2] - query[2]) * scale
+        x = (columns[0, i] - query[0]) * scale
+        y = (columns[1, i] - query[1]) * scale
+        z = (columns[2, i] - query[2]) * scale
         cloud[0, j] = x
         cloud[1, j] = y
         cloud[2, j] = z
@@ -172,7 +176,7 @@ def build_grid(points: Any, radius: float) -> tuple[Grid, Any]:
     grid : Grid
         The grid.
     order : (P,) int64
-        Which point stands where: ``grid.points = points[order]``.
+        Which point stands where: ``grid.columns[:, :P] = points[order].T``.
     """
     corner = points.min(axis=0)
     extent = points.max(axis=0) - corner
@@ -183,7 +187,9 @@ def build_grid(points: Any, radius: float) -> tuple[Grid, Any]:
     order = np.argsort(key, kind="stable")
     keys, starts = np.unique(key[order], return_index=True)
     starts = np.append(starts, len(points)).astype(np.int64)
-    return Grid(points[order], keys, starts, shape, corner, cell), order
+    columns = np.zeros((3, len(points) + LANES))
+    columns[:, : len(points)] = points[order].T
+    return Grid(columns, keys, starts, shape, corner, cell), order
 
 
 def cell_order(grid: Grid, queries: Any) -> Any:

@@ -25,6 +25,8 @@ _REAL = ir.DoubleType()
 _VECTOR = ir.VectorType(_REAL, LANES)
 _INT = ir.IntType(64)
 _INDEX = ir.IntType(32)
+_FIRST = ir.Constant(_INDEX, 0)
+_ALIKE = ir.Constant(ir.VectorType(_INDEX, LANES), [0] * LANES)
 # A product and a sum may be fused; nothing else is taken liberties with.
 _FLAGS = ("contract",)
 
@@ -97,9 +99,8 @@ class Lanes:
     def spread(self, value: Any) -> Any:
         """One number in all lanes."""
         empty = ir.Constant(_VECTOR, ir.Undefined)
-        one = self.builder.insert_element(empty, value, ir.Constant(_INDEX, 0))
-        mask = ir.Constant(ir.VectorType(_INDEX, LANES), [0] * LANES)
-        return self.builder.shuffle_vector(one, empty, mask)
+        one = self.builder.insert_element(empty, value, _FIRST)
+        return self.builder.shuffle_vector(one, empty, _ALIKE)
 
     def get(self, address: Any) -> Any:
         """The number at an address."""
@@ -156,6 +157,37 @@ class Lanes:
         """Whether a truth value holds in some lane."""
         bits = self.builder.bitcast(mask, ir.IntType(LANES))
         return self.builder.icmp_unsigned("!=", bits, ir.Constant(ir.IntType(LANES), 0))
+
+    def below(self, count: Any) -> Any:
+        """Truth values that hold in the first `count` lanes."""
+        kind = ir.VectorType(_INT, LANES)
+        one = self.builder.insert_element(ir.Constant(kind, ir.Undefined), count, _FIRST)
+        spread = self.builder.shuffle_vector(one, ir.Constant(kind, ir.Undefined), _ALIKE)
+        return self.builder.icmp_signed("<", ir.Constant(kind, list(range(LANES))), spread)
+
+    def number(self, mask: Any) -> Any:
+        """In how many lanes a truth value holds."""
+        bits = self.builder.zext(self.builder.bitcast(mask, ir.IntType(LANES)), _INT)
+        return self.builder.ctpop(bits)
+
+    def pack(self, vectors: Sequence[Any], mask: Any, addresses: Sequence[Any]) -> None:
+        """Write the lanes where a truth value holds, without gaps.
+
+        What follows them, up to a whole vector, may be overwritten.
+        """
+        if LANES == 8:
+            kind = ir.FunctionType(ir.VoidType(), [_VECTOR, _REAL.as_pointer(), mask.type])
+            name = f"llvm.masked.compressstore.v{LANES}f64"
+            store = cgutils.get_or_insert_function(self.builder.module, kind, name)
+            for vector, address in zip(vectors, addresses, strict=True):
+                self.builder.call(store, [vector, address, mask])
+            return
+        # Where the machine has no such instruction: each lane goes where the next one is due.
+        place = self.integer(0)
+        for number in range(LANES):
+            for vector, address in zip(vectors, addresses, strict=True):
+                self.put(self.lane(vector, number), self.builder.gep(address, [place]))
+            place = self.plus(place, self.builder.zext(self.lane(mask, number), _INT))
 
     def lane(self, vector: Any, number: int) -> Any:
         """One lane of a vector."""

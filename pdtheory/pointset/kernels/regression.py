@@ -31,8 +31,10 @@ WORST_PIVOT = 1e-9
 DEFICIENT, DOUBTFUL = 1e-4, 1e-3
 #: Smallest relative pivot of each degree for points that fill the disc evenly.
 FULL_DISC = make_tables()["full_disc"].copy()
-#: Below this pivot the solution is refined against the samples.
-REFINE_PIVOT = 1e-4
+#: Below this pivot the solution is refined against the samples, if they lie so close to the surface
+#: that rounding counts: it changes the coefficients by about 1 / pivot roundings, the misfit by
+#: itself over the root of the pivot, of which the former shall be no more than a thousandth.
+REFINE_PIVOT, ROUNDING = 1e-4, 1e3 * 2.2e-16
 
 
 @inner
@@ -54,7 +56,7 @@ def regress(cloud: Array, weights: int, n: int, degree: int, w: Any) -> tuple[in
     multiply_rows(cloud, weights, Z, n, PRODUCT)
     sum_products(cloud, weights, n, 2 * degree, w.cubes, w.columns, w.sums)
     sum_products(cloud, PRODUCT, n, degree, w.cubes, w.columns, w.heights)
-    fill_gram(w.sums, w.heights, degree, w.offsets, w.G)
+    fill_gram(w.sums, w.heights, degree, w.ordered, w.G)
     factor(w.G, count, w.diagonal, w.pivots, w.inverses)
     reached = -1
     worst = 1.0
@@ -101,8 +103,7 @@ def fill_residuals(cloud: Array, n: int, degree: int, w: Any) -> None:
 
 @inner
 def refine(cloud: Array, weights: int, n: int, degree: int, w: Any) -> None:
-    """Improve ``w.c`` by solving for the residuals of the samples once more."""
-    fill_residuals(cloud, n, degree, w)
+    """Improve ``w.c`` by solving for the residuals of the samples, which are in their row."""
     multiply_rows(cloud, weights, RESIDUAL, n, PRODUCT)
     sum_products(cloud, PRODUCT, n, degree, w.cubes, w.columns, w.heights)
     row = 1
@@ -114,6 +115,12 @@ def refine(cloud: Array, weights: int, n: int, degree: int, w: Any) -> None:
     solve_lower(w.G, row - 1, w.inverses, w.y, w.step)
     for i in range(1, row):
         w.c[i] += w.step[i]
+
+
+@inner
+def rounding_counts(pivot: float, residual: float) -> bool:
+    """Whether a fit with this pivot and misfit, in units of the radius, shall be refined."""
+    return pivot < REFINE_PIVOT and residual * np.sqrt(pivot) < ROUNDING
 
 
 @inner

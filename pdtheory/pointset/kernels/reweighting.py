@@ -10,7 +10,12 @@ from pdtheory.conventions import Status
 from pdtheory.pointset.kernels.fit import Fit, Settings, project
 from pdtheory.pointset.kernels.jit import Array, inner
 from pdtheory.pointset.kernels.moments import RESIDUAL, REWEIGHT, WEIGHT
-from pdtheory.pointset.kernels.regression import fill_residuals, misfit, refine, regress
+from pdtheory.pointset.kernels.regression import (
+    misfit,
+    refine,
+    regress,
+    rounding_counts,
+)
 from pdtheory.pointset.kernels.tilting import shift
 
 #: Most rounds, relative change at which they stop, smallest residual as a fraction of the mean.
@@ -29,10 +34,10 @@ def fit_robustly(cloud: Array, points: int, n: int, fit: Fit, settings: Settings
     degree = fit.top
     cx, cy, weight = project(cloud, points, n, settings.planar, w)
     reached, pivot = regress(cloud, WEIGHT, n, degree, w)
+    residual = misfit(cloud, n, degree, weight, w)
     status = fit.status | _NOT_CONVERGED
     before = np.inf
     for _ in range(ROUNDS):
-        fill_residuals(cloud, n, degree, w)
         total = 0.0
         for i in range(n):
             total += cloud[WEIGHT, i] * abs(cloud[RESIDUAL, i])
@@ -46,7 +51,9 @@ def fit_robustly(cloud: Array, points: int, n: int, fit: Fit, settings: Settings
         reached, pivot = regress(cloud, REWEIGHT, n, degree, w)
         if reached < 0:
             return Fit(fit.status | _DEGENERATE, 0, degree, cx, cy, np.nan, np.nan, fit.neighbours)
-        refine(cloud, REWEIGHT, n, degree, w)
-    residual = misfit(cloud, n, degree, weight, w)
+        residual = misfit(cloud, n, degree, weight, w)
+        if rounding_counts(pivot, residual):
+            refine(cloud, REWEIGHT, n, degree, w)
+            residual = misfit(cloud, n, degree, weight, w)
     shift(w.c, degree, cx, cy, w.table, w.middle)
     return Fit(status, reached, degree, cx, cy, residual, pivot, fit.neighbours)

@@ -26,7 +26,7 @@ MAX_DEGREE = 14
 _COUNT = (MAX_DEGREE + 1) * (MAX_DEGREE + 2) // 2
 _ROWS, _COLUMNS = padded_rows(_COUNT) + 2, padded_columns(_COUNT)
 _LINE = 64  # bytes of a cache line, where vectors begin best
-_INTEGERS = ("offsets", "intervals")  # the arrays of integers among those of numbers
+_INTEGERS = ("intervals",)  # the arrays of integers among those of numbers
 
 
 def layout(**shapes: tuple[int, ...]) -> np.dtype[Any]:
@@ -55,13 +55,14 @@ def make_record(layout: np.dtype[Any]) -> Any:
 
 
 #: Constants of all degrees:
-#: real, imaginary: phi_{k,n} = sum_b (real + i imaginary)[k, j, b] c_{k-b,b}, n = k mod 2 + 2 j;
+#: real, imaginary: phi_{k,n} = sum_b (real + i imaginary)[k (MAX_DEGREE + 1) + b, j] c_{k-b,b} with
+#: n = k mod 2 + 2 j;
 #: binomial coefficients and factorials;
 #: full_disc: smallest relative pivot of each degree for points that fill the disc evenly;
 #: cosines, sines of n theta_j, theta_j = j pi / SAMPLES.
 TABLES = layout(
-    real=(MAX_DEGREE + 1, MAX_DEGREE // 2 + 1, MAX_DEGREE + 1),
-    imaginary=(MAX_DEGREE + 1, MAX_DEGREE // 2 + 1, MAX_DEGREE + 1),
+    real=((MAX_DEGREE + 1) * (MAX_DEGREE + 1), SIDE // 2),
+    imaginary=((MAX_DEGREE + 1) * (MAX_DEGREE + 1), SIDE // 2),
     binomial=(MAX_DEGREE + 1, MAX_DEGREE + 1),
     factorial=(MAX_DEGREE + 1,),
     full_disc=(MAX_DEGREE + 1,),
@@ -74,7 +75,7 @@ WORKSPACE = layout(
     columns=(LANES + 1, BLOCK),
     sums=(2 * MAX_DEGREE + 4, 2 * MAX_DEGREE + 2 * LANES),
     heights=(2 * MAX_DEGREE + 4, 2 * MAX_DEGREE + 2 * LANES),
-    offsets=(_COLUMNS,),
+    ordered=(2 * MAX_DEGREE + 1, 2 * MAX_DEGREE + 2 * LANES),
     G=(_ROWS, _COLUMNS),
     S=(_ROWS, _COLUMNS),
     X=(_ROWS, _COLUMNS),
@@ -93,6 +94,7 @@ WORKSPACE = layout(
     norms=(SIDE,),
     frame=(3, 3),
     A=(3, 3),
+    B=(3, 3),
     Q=(3, 3),
     plane=(LANES,),
     spread=(16 + LANES,),
@@ -101,6 +103,8 @@ WORKSPACE = layout(
     U=(SIDE + LANES + 1, _COLUMNS),
     C=(SIDE, SIDE + LANES),
     powers=(2, SIDE),
+    turns=(4, SIDE // 2),
+    planar=(2, SIDE * (SIDE + 2) // 4 + LANES),
     gradient=(2, _COLUMNS),
 )
 
@@ -144,8 +148,8 @@ def make_tables() -> Any:
             unit = (1, -1j, -1, 1j)[b % 4]
             for j, n in enumerate(frequencies(k)):
                 value = unit * powers[(k - n) // 2] / 2**k
-                tables["real"][k, j, b] = value.real
-                tables["imaginary"][k, j, b] = value.imag
+                tables["real"][k * (MAX_DEGREE + 1) + b, j] = value.real
+                tables["imaginary"][k * (MAX_DEGREE + 1) + b, j] = value.imag
         for j in range(k + 1):
             tables["binomial"][k, j] = comb(k, j)
         tables["factorial"][k] = factorial(k)

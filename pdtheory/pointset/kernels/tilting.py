@@ -16,17 +16,45 @@ from pdtheory.pointset.kernels.tables import SIDE
 TILT_OF_RESIDUAL, TILT_OF_HEIGHT = 0.3, 1e-13
 
 
-@inner
-def _spread_out(c: Array, degree: int, table: Array) -> None:
-    """Write coefficients to a table by powers."""
-    for a in range(SIDE):
-        for b in range(SIDE):
-            table[a, b] = 0.0
-    row = 1
-    for d in range(degree, -1, -1):
-        for b in range(d + 1):
-            table[d - b, b] = c[row]
-            row += 1
+@emit
+def _spread_out(to: Lanes, c: Rows, degree: Any, table: Rows) -> None:
+    """Write coefficients to a table by powers, zeros elsewhere."""
+    with to.count(0, SIDE) as a:
+        for b in range(0, SIDE, LANES):
+            to.store(to.constant(0.0), table.at(a, b))
+    row = to.variable(to.integer(1))
+    with to.count(0, to.plus(degree, 1)) as lower:
+        d = to.minus(degree, lower)
+        with to.count(0, to.plus(d, 1)) as b:
+            at = to.get(row)
+            to.put(to.get(c.at(at)), table.at(to.minus(d, b), b))
+            to.put(to.plus(at, 1), row)
+
+
+@emit
+def _shift_rows(to: Lanes, table: Rows, degree: Any, centre: Any) -> None:
+    """Replace the powers x^a of the rows by those of x - centre."""
+    by = to.spread(centre)
+    parts = range(0, SIDE, LANES)
+    with to.count(0, degree) as low:
+        last = [to.variable(to.load(table.at(degree, part))) for part in parts]
+        with to.count(0, to.minus(degree, low)) as step:
+            row = to.minus(to.plus(degree, -1), step)
+            for part, value in zip(parts, last, strict=True):
+                at = table.at(row, part)
+                moved = to.subtract(to.load(at), to.times(by, to.get(value)))
+                to.put(moved, value)
+                to.store(moved, at)
+
+
+@emit
+def _transpose(to: Lanes, table: Rows, degree: Any, out: Rows) -> None:
+    """Write the transpose of a table, zeros above the degree."""
+    with to.count(0, to.plus(degree, 1)) as b:
+        for part in range(0, SIDE, LANES):
+            to.store(to.constant(0.0), out.at(b, part))
+        with to.count(0, to.plus(to.minus(degree, b), 1)) as a:
+            to.put(to.get(table.at(a, b)), out.at(b, a))
 
 
 @inner
@@ -45,22 +73,45 @@ def shift(c: Array, degree: int, cx: float, cy: float, table: Array, turned: Arr
         Scratch.
     """
     _spread_out(c, degree, table)
-    for low in range(degree):
-        for a in range(degree - 1, low - 1, -1):
-            for b in range(SIDE):
-                table[a, b] -= cx * table[a + 1, b]
-    for b in range(SIDE):
-        for a in range(SIDE):
-            turned[b, a] = table[a, b]
-    for low in range(degree):
-        for b in range(degree - 1, low - 1, -1):
-            for a in range(SIDE):
-                turned[b, a] -= cy * turned[b + 1, a]
+    _shift_rows(table, degree, cx)
+    _transpose(table, degree, turned)
+    _shift_rows(turned, degree, cy)
     row = 1
     for d in range(degree, -1, -1):
         for b in range(d + 1):
             c[row] = turned[b, d - b]
             row += 1
+
+
+@inner
+def gradient(c: Array, degree: int, x: float, y: float, powers: Array) -> tuple[float, float]:
+    """Return the derivatives of sum c_ab x^a y^b by x and y.
+
+    Parameters
+    ----------
+    c, degree
+        The coefficients, as for `shift`.
+    x, y : float
+        Where.
+    powers : (2, > degree) float64
+        Scratch.
+    """
+    powers[0, 0] = 1.0
+    powers[1, 0] = 1.0
+    for i in range(degree):
+        powers[0, i + 1] = powers[0, i] * x
+        powers[1, i + 1] = powers[1, i] * y
+    by_x = 0.0
+    by_y = 0.0
+    row = 1
+    for d in range(degree, -1, -1):
+        for b in range(d + 1):
+            if b < d:
+                by_x += c[row] * (d - b) * powers[0, d - b - 1] * powers[1, b]
+            if b > 0:
+                by_y += c[row] * b * powers[0, d - b] * powers[1, b - 1]
+            row += 1
+    return by_x, by_y
 
 
 @emit

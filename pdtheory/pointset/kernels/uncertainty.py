@@ -156,13 +156,13 @@ def prepare_covariances(
     if robust:
         # The covariance of an l1 fit holds the Gram matrix of the weights before reweighting.
         sum_products(cloud, WEIGHT, n, 2 * top, w.cubes, w.columns, w.sums)
-        fill_gram(w.sums, w.heights, top, w.offsets, w.G)
+        fill_gram(w.sums, w.heights, top, w.ordered, w.G)
         factor(w.G, count, w.diagonal, w.pivots, w.inverses)
         for i in range(1, first):
             w.inverses[i] = 0.0
     multiply_rows(cloud, WEIGHT, WEIGHT, n, PRODUCT)
     sum_products(cloud, PRODUCT, n, 2 * top, w.cubes, w.columns, w.sums)
-    fill_gram(w.sums, w.heights, top, w.offsets, w.S)
+    fill_gram(w.sums, w.heights, top, w.ordered, w.S)
     factor(w.S, count, w.step, w.y, w.spare)
     rows = (count + PANEL - 1) // PANEL * PANEL
     for i in range(1, rows + 1):
