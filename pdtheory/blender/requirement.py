@@ -33,7 +33,7 @@ def require_bpy() -> None:
         raise MissingDependencyError(
             f"drawing needs Blender's Python module bpy, which is not installed in this Python "
             f"{running}; it exists for Python 3.11 and 3.13: use one of them and install it with "
-            "`uv sync --extra blender` or `pip install 'pdtheory[blender]'`."
+            "`uv sync --extra blender` or, in a clone, `pip install '.[blender]'`."
         ) from error
     except ImportError as error:
         library = re.match(r"(lib[\w.+-]+\.so[\w.]*)", str(error))

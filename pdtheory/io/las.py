@@ -34,12 +34,14 @@ def read_las(path: Path) -> PointCloud:
         import laspy
     except ImportError as error:
         raise MissingDependencyError(
-            f"{path} needs laspy to be read; install the extra: pip install 'pdtheory[las]'."
+            f"{path} needs laspy to be read; install it with `pip install 'laspy[lazrs]'` "
+            "(extra las)."
         ) from error
     compressed = path.suffix.lower() == ".laz"
     if compressed and not laspy.LazBackend.detect_available():
         raise MissingDependencyError(
-            f"{path} needs a LAZ decompressor; install the extra: pip install 'pdtheory[las]'."
+            f"{path} needs a LAZ decompressor; install it with `pip install 'laspy[lazrs]'` "
+            "(extra las)."
         )
     try:
         points = np.asarray(laspy.read(path).xyz, dtype=np.float64)

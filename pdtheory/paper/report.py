@@ -64,7 +64,7 @@ def check_requirements(target: Path) -> str:
     if missing:
         raise MissingDependencyError(
             f"a {suffix} report needs {' and '.join(missing)}; "
-            "install the extra: pip install 'pdtheory[figures]'."
+            f"install it with `pip install {' '.join(missing)}` (extra figures)."
         )
     return suffix
 

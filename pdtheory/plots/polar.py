@@ -275,6 +275,6 @@ def _matplotlib() -> tuple[Any, Any]:
         from matplotlib.figure import Figure
     except ImportError as error:
         raise MissingDependencyError(
-            "plots need matplotlib; install the extra: pip install 'pdtheory[figures]'."
+            "plots need matplotlib; install it with `pip install matplotlib` (extra figures)."
         ) from error
     return Figure, rc_context

@@ -41,7 +41,7 @@ def to_pyvista(field: DirectionField) -> Any:
         import pyvista
     except ImportError as error:
         raise MissingDependencyError(
-            "to_pyvista needs PyVista; install it: pip install 'pdtheory[viewer]'."
+            "to_pyvista needs PyVista; install it with `pip install pyvista` (extra viewer)."
         ) from error
     points, columns = glyph_columns(field)
     mesh = pyvista.PolyData(points)

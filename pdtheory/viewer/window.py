@@ -338,8 +338,8 @@ def widget(
     except ImportError as error:
         # PyVista would fall back to a picture that answers nothing.
         raise MissingDependencyError(
-            "the notebook widget needs trame and ipywidgets; install the extra: "
-            "pip install 'pdtheory[notebook]'."
+            "the notebook widget needs trame and ipywidgets; install them with "
+            "`pip install 'pyvista[jupyter]'` (extra notebook)."
         ) from error
     plotter = pyvista.Plotter(notebook=True, off_screen=True, window_size=list(size))
     scene = FieldView(field, cloud, choice, _view(field, cloud, None, None, None), plotter)
@@ -377,6 +377,6 @@ def _pyvista() -> Any:
         import pyvista
     except ImportError as error:
         raise MissingDependencyError(
-            "the viewer needs PyVista; install the extra: pip install 'pdtheory[viewer]'."
+            "the viewer needs PyVista; install it with `pip install pyvista` (extra viewer)."
         ) from error
     return pyvista

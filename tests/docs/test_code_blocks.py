@@ -36,7 +36,17 @@ ELSEWHERE = {
     "pdtheory verify": "tests/claims/test_verify.py",
 }
 #: Lines of a shell that belong to other programs.
-FOREIGN = ("make", "uv ", "pip ", "sudo apt-get", "apt-get", "python ", "git ", "blender ")
+FOREIGN = (
+    "make",
+    ". .venv/",
+    "uv ",
+    "pip ",
+    "sudo apt-get",
+    "apt-get",
+    "python ",
+    "git ",
+    "blender ",
+)
 #: Blocks that run inside Blender, by their first line, and the tests that run the same.
 IN_BLENDER = {"import bpy": "tests/blender/test_extension.py"}
 #: Extras that a block asks for.

@@ -141,7 +141,7 @@ def test_bad_input_is_refused(tmp_path, monkeypatch):
     with pytest.raises(FileAccessError, match="does not exist"):
         save_figure(polar_figure([MONKEY]), tmp_path / "absent" / "a.png")
     monkeypatch.setitem(sys.modules, "matplotlib", None)
-    with pytest.raises(MissingDependencyError, match=r"pdtheory\[figures\]"):
+    with pytest.raises(MissingDependencyError, match="extra figures"):
         polar_figure([MONKEY])
 
 

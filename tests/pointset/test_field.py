@@ -196,7 +196,7 @@ def test_html_without_matplotlib_is_the_table_alone(field, monkeypatch):
     html = field.at(11)._repr_html_()
     assert "<table>" in html
     assert "<svg" not in html
-    with pytest.raises(MissingDependencyError, match=r"pdtheory\[figures\]"):
+    with pytest.raises(MissingDependencyError, match="extra figures"):
         field.at(11).plot()
 
 

@@ -29,7 +29,7 @@ def pyplot() -> Any:
         import matplotlib
     except ImportError as error:
         raise MissingDependencyError(
-            "figures need matplotlib; install the extra: pip install 'pdtheory[figures]'."
+            "figures need matplotlib; install it with `pip install matplotlib` (extra figures)."
         ) from error
     matplotlib.use("Agg")
     # It warns that a file without a date has no date.
