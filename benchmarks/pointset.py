@@ -25,10 +25,10 @@ from pathlib import Path
 # The threads of a matrix product wait busily for the next one, on the clock of what follows.
 os.environ["OPENBLAS_NUM_THREADS"] = "1"
 
-import numpy as np  # noqa: E402
-from scipy.spatial import cKDTree  # noqa: E402
+import numpy as np
+from scipy.spatial import cKDTree
 
-from pdtheory.pointset import estimate_directions  # noqa: E402
+from pdtheory.pointset import estimate_directions
 
 HERE = Path(__file__).parent
 REPEATS = 5

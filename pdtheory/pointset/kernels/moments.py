@@ -17,8 +17,8 @@ TALL = 3
 
 
 def cube_rows(degree: int) -> int:
-    """Powers of x^3 that moments up to twice the degree need, one to spare."""
-    return (2 * degree + TALL) // TALL + 1
+    """Powers of x^3 that moments up to twice the degree need, then those times z; one to spare."""
+    return (2 * degree + TALL) // TALL + (degree + TALL) // TALL + 1
 
 
 @emit
@@ -40,23 +40,65 @@ def sum_products(
     out : (>= top + 4, >= top + LANES + 1) float64
         The sums; entries with a + b > top are scratch.
     """
-    with to.count(0, to.plus(top, TALL)) as a, to.count(0, to.plus(top, LANES), LANES) as b:
-        to.store(to.constant(0.0), out.at(a, b))
+    _sum(to, cloud, weights, n, cubes, columns, top, out, None, None)
+
+
+@emit
+def sum_moments(
+    to: Lanes,
+    cloud: Rows,
+    weights: Any,
+    n: Any,
+    degree: Any,
+    cubes: Rows,
+    columns: Rows,
+    sums: Rows,
+    heights: Rows,
+) -> None:
+    """Sum w x^a y^b for a + b <= 2 degree, and w z x^a y^b for a + b <= degree, in one go.
+
+    The parameters are those of `sum_products`; row Z of the cloud holds z.
+    """
+    _sum(to, cloud, weights, n, cubes, columns, to.plus(degree, degree), sums, degree, heights)
+
+
+def _sum(
+    to: Lanes,
+    cloud: Rows,
+    weights: Any,
+    n: Any,
+    cubes: Rows,
+    columns: Rows,
+    top: Any,
+    sums: Rows,
+    degree: Any,
+    heights: Any,
+) -> None:
+    """Sum w x^a y^b and, if there is a degree for them, w z x^a y^b."""
+    targets = [(top, sums, to.integer(0))]
+    if degree is not None:
+        targets.append((degree, heights, to.plus(to.div(top, TALL), 1)))
+    for last, out, _ in targets:
+        with to.count(0, to.plus(last, TALL)) as a, to.count(0, to.plus(last, LANES), LANES) as b:
+            to.store(to.constant(0.0), out.at(a, b))
     blocks = to.greatest(to.div(to.plus(n, BLOCK - 1), BLOCK), 1)
     vectors = to.div(to.plus(n, LANES - 1), LANES)
     length = to.mul(to.div(to.minus(to.plus(vectors, blocks), 1), blocks), LANES)
     with to.count(0, blocks) as block:
         start = to.mul(block, length)
         stop = to.least(length, to.minus(n, start))
-        _fill_powers(to, cloud, weights, start, stop, top, cubes, columns)
+        _fill_powers(to, cloud, weights, start, stop, top, degree, cubes, columns)
         with to.count(0, to.plus(top, 1), LANES) as b:
+            for last, out, cube in targets:
+                left = to.minus(last, b)
+                tiles = to.plus(to.div(to.plus(left, TALL), TALL), cube)
+                wide = to.div(to.greatest(to.plus(left, TALL - LANES // 2), 0), TALL)
+                wide = to.plus(wide, cube)
+                for width, first, end in ((LANES, cube, wide), (LANES // 2, wide, tiles)):
+                    with to.count(first, end) as tile:
+                        a = to.mul(to.minus(tile, cube), TALL)
+                        _tile(to, cloud, start, stop, cubes, columns, tile, width, out, a, b)
             left = to.minus(top, b)
-            tiles = to.plus(to.div(left, TALL), 1)
-            wide = to.div(to.greatest(to.plus(left, TALL - LANES // 2), 0), TALL)
-            with to.count(0, wide) as tile:
-                _tile(to, cloud, start, stop, cubes, columns, tile, b, LANES, out)
-            with to.count(wide, tiles) as tile:
-                _tile(to, cloud, start, stop, cubes, columns, tile, b, LANES // 2, out)
             with to.builder.if_then(to.builder.icmp_signed(">=", left, to.integer(LANES))):
                 _raise_columns(to, stop, columns)
 
@@ -68,19 +110,27 @@ def _fill_powers(
     start: Any,
     stop: Any,
     top: Any,
+    degree: Any,
     cubes: Rows,
     columns: Rows,
 ) -> None:
-    """Write the powers of x^3 and the first LANES columns w y^b."""
+    """Write the powers of x^3, those times z, and the first LANES columns w y^b."""
     with to.count(0, stop, LANES) as i:
         at = to.plus(start, i)
         x = to.load(cloud.at(X, at))
         cube = to.times(to.times(x, x), x)
-        power = to.variable(to.constant(1.0))
-        with to.count(0, to.plus(to.div(top, TALL), 1)) as row:
-            value = to.get(power)
-            to.store(value, cubes.at(row, i))
-            to.put(to.times(value, cube), power)
+        after = to.integer(0)
+        firsts = [(to.constant(1.0), top)]
+        if degree is not None:
+            firsts.append((to.load(cloud.at(Z, at)), degree))
+        for first, last in firsts:
+            power = to.variable(first)
+            end = to.plus(after, to.div(last, TALL), 1)
+            with to.count(after, end) as row:
+                value = to.get(power)
+                to.store(value, cubes.at(row, i))
+                to.put(to.times(value, cube), power)
+            after = end
         y = to.load(cloud.at(Y, at))
         square = to.times(y, y)
         even = to.load(cloud.at(weights, at))
@@ -112,11 +162,12 @@ def _tile(
     cubes: Rows,
     columns: Rows,
     tile: Any,
-    b: Any,
     width: int,
     out: Rows,
+    a: Any,
+    b: Any,
 ) -> None:
-    """Add the dot products of TALL powers of x with `width` columns."""
+    """Add the dot products of TALL powers of x with `width` columns to the sums from (a, b) on."""
     sums = [[to.variable(to.constant(0.0)) for _ in range(width)] for _ in range(TALL)]
     with to.count(0, stop, LANES) as i:
         x = to.load(cloud.at(X, to.plus(start, i)))
@@ -129,7 +180,7 @@ def _tile(
                 to.put(to.add(to.times(power, value), to.get(row[column])), row[column])
     rest = [to.constant(0.0)] * (LANES - width)
     for offset, row in enumerate(sums):
-        at = out.at(to.plus(to.mul(tile, TALL), offset), b)
+        at = out.at(to.plus(a, offset), b)
         to.store(to.add(to.load(at), to.sums([*map(to.get, row), *rest])), at)
 
 

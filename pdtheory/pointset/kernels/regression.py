@@ -16,9 +16,9 @@ from pdtheory.pointset.kernels.moments import (
     PRODUCT,
     RESIDUAL,
     WEIGHT,
-    Z,
     multiply_rows,
     subtract_polynomial,
+    sum_moments,
     sum_products,
 )
 from pdtheory.pointset.kernels.tables import make_tables
@@ -53,9 +53,7 @@ def regress(cloud: Array, weights: int, n: int, degree: int, w: Any) -> tuple[in
         The degree reached and its smallest relative pivot.
     """
     count = (degree + 1) * (degree + 2) // 2
-    multiply_rows(cloud, weights, Z, n, PRODUCT)
-    sum_products(cloud, weights, n, 2 * degree, w.cubes, w.columns, w.sums)
-    sum_products(cloud, PRODUCT, n, degree, w.cubes, w.columns, w.heights)
+    sum_moments(cloud, weights, n, degree, w.cubes, w.columns, w.sums, w.heights)
     fill_gram(w.sums, w.heights, degree, w.ordered, w.G)
     factor(w.G, count, w.diagonal, w.pivots, w.inverses)
     reached = -1
