@@ -161,6 +161,19 @@ def test_switches_and_threshold_change_the_picture(field, scene):
     assert scene.count() == 0
 
 
+def test_pressing_a_switch_changes_what_is_seen(scene):
+    scene.add_controls()
+    # PyVista moved its widgets into a place of their own.
+    buttons = getattr(scene.plotter, "widgets", scene.plotter).button_widgets
+    # From the bottom upwards: the highest order first.
+    for button, orders in zip(buttons, [(2, 3, 4), (2, 4), (4,)], strict=True):
+        state = button.GetRepresentation()
+        state.SetState(1 - state.GetState())
+        button.InvokeEvent("StateChangedEvent")
+        assert scene.choice.orders == orders
+    assert share(scene.plotter.screenshot(return_img=True), 4) > 0.003
+
+
 @pytest.mark.parametrize(
     ("options", "words"),
     [
