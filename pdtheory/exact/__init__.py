@@ -6,8 +6,10 @@ from pdtheory.exact.characteristic import (
     characteristic_polynomial,
     is_irregular,
 )
-from pdtheory.exact.complexpairs import ComplexEigenPair, ComplexEigenPairs, complex_eigenpairs
+from pdtheory.exact.complexpair import ComplexEigenPair
+from pdtheory.exact.complexpairs import ComplexEigenPairs, complex_eigenpairs
 from pdtheory.exact.cones import Cone
+from pdtheory.exact.constantroots import RealConstant, RealRoot
 from pdtheory.exact.eigenpair import EigenPair
 from pdtheory.exact.eigenpairs import EigenPairs, real_eigenpairs
 from pdtheory.exact.expression import parse_expression
@@ -18,6 +20,7 @@ from pdtheory.exact.jets import explicit_jet, implicit_jet, parametric_jet
 from pdtheory.exact.moments import cone_coefficient, radial_moment
 from pdtheory.exact.named import NamedConstant
 from pdtheory.exact.prediction import ConePrediction, predict
+from pdtheory.exact.realnumber import RealNumber
 from pdtheory.exact.report import report
 from pdtheory.exact.rosy import rosy_kinds
 from pdtheory.exact.strata import count_bounds, count_maxima, parametric_discriminant
@@ -39,6 +42,9 @@ __all__ = [
     "Face",
     "NamedConstant",
     "RealAlgebraic",
+    "RealConstant",
+    "RealNumber",
+    "RealRoot",
     "Realization",
     "SurfaceJet",
     "SymmetricTensor",

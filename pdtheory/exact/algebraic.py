@@ -5,7 +5,7 @@ Enclosures can be asked for to any number of digits; radicals are given when the
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from math import gcd
@@ -13,40 +13,15 @@ from typing import Any, Final
 
 import sympy as sp
 
-from pdtheory.errors import ComputationError
 from pdtheory.exact.balls import engine, real_roots
+from pdtheory.exact.enclosing import enclose
 from pdtheory.exact.engines import Integers
 from pdtheory.exact.intervals import Enclosure
+from pdtheory.exact.realnumber import FIRST_BITS, SHORT, RealNumber, precisions
 
-#: Longest text of a radical that is shown instead of the minimal polynomial.
-SHORT: Final = 48
 #: Longest text of a minimal polynomial that is shown.
 LONG: Final = 400
-#: Bits with which work starts, and where it is given up (a comparison that never ends).
-FIRST_BITS: Final = 112
-LAST_BITS: Final = 1 << 20
-
 _T = sp.Symbol("t")
-
-
-def precisions(first: int = FIRST_BITS) -> Iterator[int]:
-    """Yield growing working precisions in bits.
-
-    Raises
-    ------
-    ComputationError
-        When the next one would pass `LAST_BITS`.
-    """
-    bits = first
-    while bits <= LAST_BITS:
-        yield bits
-        bits *= 2
-    raise ComputationError(f"A number could not be enclosed within {LAST_BITS} bits.")
-
-
-def bits_for(digits: int) -> int:
-    """Return a working precision with which to start for this many decimal digits."""
-    return max(FIRST_BITS, int(digits * 3.33) + 48)
 
 
 def primitive(coefficients: list[Fraction] | list[int]) -> Integers:
@@ -64,7 +39,7 @@ def primitive(coefficients: list[Fraction] | list[int]) -> Integers:
 
 
 @dataclass(frozen=True)
-class RealAlgebraic:
+class RealAlgebraic(RealNumber):
     """A real root of an irreducible integer polynomial.
 
     Attributes
@@ -126,27 +101,6 @@ class RealAlgebraic:
         """Return an enclosure computed with a working precision in bits."""
         return real_roots(self.polynomial, bits)[self.index]
 
-    def enclosure(self, digits: int = 15) -> Enclosure:
-        """Return an enclosure of width at most 10^-digits relative to max(1, |number|)."""
-        for bits in precisions(bits_for(digits)):
-            found = self.at_precision(bits)
-            if found.narrower_than(digits):
-                return found
-        raise AssertionError("unreachable")
-
-    def sign(self) -> int:
-        """Return the sign, exactly."""
-        if self.is_rational:
-            return -1 if self.polynomial[0] > 0 else int(self.polynomial[0] < 0)
-        for bits in precisions():
-            sign = self.at_precision(bits).sign
-            if sign:
-                return sign
-        raise AssertionError("unreachable")
-
-    def __float__(self) -> float:
-        return float(self.enclosure(20).middle)
-
     @property
     def radical(self) -> Any | None:
         """The number in radicals if that is short, else None."""
@@ -161,14 +115,18 @@ class RealAlgebraic:
         return None
 
     def _shortest(self, candidates: list[Any]) -> Any | None:
-        # The candidates are the roots of the minimal polynomial: one alone lies in the enclosure.
-        here = self.enclosure(30)
-        tolerance = Fraction(1, 10**25) * max(Fraction(1), abs(here.middle))
-        for candidate in candidates:
-            value = sp.N(candidate, 40)
-            if value.is_real and abs(Fraction(str(value)) - here.middle) <= tolerance:
-                return candidate if len(str(candidate)) <= SHORT else None
-        return None
+        # The candidates are roots of the minimal polynomial: at some width one alone is near.
+        for bits in precisions():
+            here, near = self.at_precision(bits), []
+            for candidate in candidates:
+                found = enclose(candidate, bits)
+                if found is None or (
+                    found.real.overlaps(here) and found.imaginary.sign not in (1, -1)
+                ):
+                    near.append(candidate)
+            if len(near) <= 1:
+                return next((c for c in near if len(str(c)) <= SHORT), None)
+        raise AssertionError("unreachable")
 
     @property
     def exact(self) -> Any:
@@ -195,22 +153,3 @@ def _quadratic(polynomial: Integers) -> list[Any]:
     c, b, a = (sp.Integer(e) for e in polynomial)
     root = sp.sqrt(b**2 - 4 * a * c)
     return [sp.expand((-b + root) / (2 * a)), sp.expand((-b - root) / (2 * a))]
-
-
-def to_float(enclose: Callable[[int], Enclosure], digits: int) -> Any:
-    """Return a nonzero number as a SymPy Float with this many correct digits, however small.
-
-    Parameters
-    ----------
-    enclose
-        Returns an enclosure of width 10^-d times max(1, |number|) for d digits.
-    digits
-        Number of significant digits.
-    """
-    asked = digits + 3
-    while True:
-        found = enclose(asked)
-        if found.width * 10 ** (digits + 2) <= min(abs(found.lower), abs(found.upper)):
-            middle = found.middle
-            return sp.Float(sp.Rational(middle.numerator, middle.denominator), digits)
-        asked *= 2

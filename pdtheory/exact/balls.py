@@ -1,4 +1,4 @@
-"""Certified roots of integer polynomials, by the library in use.
+"""Certified roots of integer polynomials.
 
 Polynomials are tuples of integers, constant term first.
 """
@@ -9,17 +9,15 @@ from collections.abc import Sequence
 from functools import cache, lru_cache
 from typing import Any
 
-from pdtheory.exact.engines import Engine, FlintEngine, Integers, SympyEngine
+from pdtheory.exact.engines import Engine, Integers
 from pdtheory.exact.intervals import Enclosure, Rectangle
+from pdtheory.exact.realnumber import FIRST_BITS
 
 
 @cache
 def engine() -> Engine:
-    """Return the engine in use: python-flint where it is installed, else SymPy."""
-    try:
-        return FlintEngine()
-    except ImportError:
-        return SympyEngine()
+    """Return the one engine; python-flint is imported when it is first asked for."""
+    return Engine()
 
 
 @lru_cache(maxsize=512)
@@ -33,8 +31,31 @@ def real_roots(polynomial: Integers, bits: int) -> tuple[Enclosure, ...]:
 
 @lru_cache(maxsize=512)
 def complex_roots(polynomial: Integers, bits: int) -> tuple[Rectangle, ...]:
-    """Return enclosures of the roots in the upper half plane of a squarefree polynomial."""
-    return tuple(engine().complex_roots(polynomial, bits))
+    """Return enclosures of the roots in the upper half plane of a squarefree polynomial.
+
+    They are disjoint and come in one order, whatever the precision.
+    """
+    found = tuple(engine().complex_roots(polynomial, bits))
+    if bits <= FIRST_BITS:
+        return found
+    ordered = in_order_of(complex_roots(polynomial, FIRST_BITS), found)
+    return complex_roots(polynomial, 2 * bits) if ordered is None else ordered
+
+
+def in_order_of(
+    known: Sequence[Rectangle], found: Sequence[Rectangle]
+) -> tuple[Rectangle, ...] | None:
+    """Return narrower enclosures of numbers in the order of wider ones, None if that is not clear.
+
+    Numbers with equal real parts have no order that rounding would leave alone.
+    """
+    placed = []
+    for wide in known:
+        inside = [f for f in found if wide.overlaps(f)]
+        if len(inside) != 1:
+            return None
+        placed.append(inside[0])
+    return tuple(placed)
 
 
 def horner(coefficients: Sequence[Any], at: Any) -> Any:

@@ -18,6 +18,7 @@ from sympy.polys.matrices import DomainMatrix
 from pdtheory.errors import InputError
 from pdtheory.exact.coefficients import check_order
 from pdtheory.exact.faces import Face
+from pdtheory.exact.fields import Field
 from pdtheory.exact.zeros import is_zero
 
 #: The unknown of the polynomial.
@@ -25,6 +26,8 @@ LAMBDA = sp.Symbol("lambda")
 
 #: Largest order; the determinant has 4 k - 4 rows.
 MAX_PSI_ORDER = 40
+#: Most numbers beside a number field, such as pi and e, of which psi may be made.
+MOST_NUMBERS = 3
 
 
 @dataclass(frozen=True)
@@ -71,7 +74,7 @@ def characteristic_polynomial(face: Face) -> CharacteristicPolynomial:
     Parameters
     ----------
     face
-        A tensor, form or row with rational, algebraic or symbolic coefficients.
+        A tensor, form or row; its coefficients may be constants of any kind, or symbols.
 
     Returns
     -------
@@ -82,7 +85,8 @@ def characteristic_polynomial(face: Face) -> CharacteristicPolynomial:
     Raises
     ------
     InputError
-        If the order is below 2 or above `MAX_PSI_ORDER`.
+        If the order is below 2 or above `MAX_PSI_ORDER`, or more than `MOST_NUMBERS`
+        transcendental numbers are among the coefficients.
 
     Examples
     --------
@@ -95,11 +99,15 @@ def characteristic_polynomial(face: Face) -> CharacteristicPolynomial:
     k = check_order(form.order, 2)
     if k > MAX_PSI_ORDER:
         raise InputError(f"The order is {k}; psi is computed up to order {MAX_PSI_ORDER}.")
-    domain, elements = sp.construct_domain(
-        [*form.coefficients, sp.Integer(1)], extension=True, field=True
-    )
-    first = [domain(k - j) * elements[j] / domain(k) for j in range(k)]
-    second = [domain(j + 1) * elements[j + 1] / domain(k) for j in range(k)]
+    field = Field(form.coefficients, "t")
+    if len(field.numbers) > MOST_NUMBERS:
+        raise InputError(
+            f"The coefficients hold {len(field.numbers)} numbers beside a number field; psi is "
+            f"computed with at most {MOST_NUMBERS} of them, because it is a polynomial in each."
+        )
+    domain, elements = field.domain, [field.element(c) for c in form.coefficients]
+    first = [domain.convert(sp.QQ(k - j, k), sp.QQ) * elements[j] for j in range(k)]
+    second = [domain.convert(sp.QQ(j + 1, k), sp.QQ) * elements[j + 1] for j in range(k)]
     zero, one = domain.zero, domain.one
     if k % 2 == 0:
         sphere = _power([one, zero, one], (k - 2) // 2)
@@ -123,12 +131,16 @@ def characteristic_polynomial(face: Face) -> CharacteristicPolynomial:
     coefficients = _interpolate(abscissae, values, domain)
     if k % 2:
         coefficients = [c for a in coefficients for c in (a, zero)][:-1]
-    return CharacteristicPolynomial(k, _normalized(coefficients, domain))
+    return CharacteristicPolynomial(k, _normalized(coefficients, field))
 
 
-def _normalized(coefficients: list[Any], domain: Any) -> Any:
+def _normalized(coefficients: list[Any], field: Field) -> Any:
+    domain = field.domain
+    if field.numbers:
+        # Relations between the numbers may make a coefficient vanish that does not look so.
+        return sp.Poly([field.expression(c) for c in coefficients[::-1]], LAMBDA)
     poly = sp.Poly.from_list(coefficients[::-1], LAMBDA, domain=domain)
-    if poly.is_zero or not (domain.is_QQ or domain.is_ZZ):
+    if poly.is_zero or not domain.is_QQ:
         return poly
     poly = poly.clear_denoms(convert=True)[1].primitive()[1]
     return -poly if poly.LC() < 0 else poly
@@ -190,9 +202,9 @@ def sylvester_resultant(first: Face, second: Face) -> Any:
     if a.order != b.order or a.order < 1:
         raise InputError(f"A resultant needs two forms of one order, not {a.order} and {b.order}.")
     constants = [*a.coefficients, *b.coefficients]
-    domain, elements = sp.construct_domain(constants, extension=True, field=True)
-    middle = a.order + 1
-    return sp.expand(domain.to_sympy(_sylvester(elements[:middle], elements[middle:], domain)))
+    field = Field(constants, "t")
+    elements, middle = [field.element(c) for c in constants], a.order + 1
+    return field.expression(_sylvester(elements[:middle], elements[middle:], field.domain))
 
 
 def _interpolate(abscissae: Sequence[int], values: Sequence[Any], domain: Any) -> list[Any]:
@@ -200,8 +212,8 @@ def _interpolate(abscissae: Sequence[int], values: Sequence[Any], domain: Any) -
     divided = list(values)
     for level in range(1, len(divided)):
         for i in range(len(divided) - 1, level - 1, -1):
-            step = domain(abscissae[i] - abscissae[i - level])
-            divided[i] = (divided[i] - divided[i - 1]) / step
+            step = sp.QQ(1, abscissae[i] - abscissae[i - level])
+            divided[i] = (divided[i] - divided[i - 1]) * domain.convert(step, sp.QQ)
     coefficients = [domain.zero]
     for c, at in zip(reversed(divided), reversed(abscissae), strict=True):
         shifted = [domain.zero, *coefficients]

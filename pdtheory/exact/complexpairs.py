@@ -10,181 +10,39 @@ follow from those of the roots in interval arithmetic.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
-from fractions import Fraction
-from functools import cached_property
-from typing import Any
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import NamedTuple
 
-import sympy as sp
-
-from pdtheory.errors import InputError
-from pdtheory.exact.algebraic import FIRST_BITS, bits_for, precisions
-from pdtheory.exact.balls import complex_roots, engine, horner, real_roots
+from pdtheory.exact.balls import engine, horner
 from pdtheory.exact.coefficients import check_order
+from pdtheory.exact.complexpair import ComplexEigenPair, places
+from pdtheory.exact.constantpolynomial import ConstantPolynomial
 from pdtheory.exact.eigenpairs import Outcome
 from pdtheory.exact.engines import Integers
-from pdtheory.exact.faces import Face
-from pdtheory.exact.intervals import Enclosure, Rectangle
-from pdtheory.exact.roots import Coefficients, candidates, is_root
+from pdtheory.exact.faces import BinaryForm, Face
+from pdtheory.exact.intervals import Rectangle
+from pdtheory.exact.realcoefficients import Coefficients
+from pdtheory.exact.realnumber import FIRST_BITS, precisions
+from pdtheory.exact.roots import candidates, is_root, without_outer_zeros
+from pdtheory.exact.squarefree import squarefree_parts
+from pdtheory.exact.wavejets import WavejetsRow
+from pdtheory.exact.zeros import is_zero
 
 #: tau^2 + 1, the polynomial of the isotropic directions.
 ISOTROPIC: Integers = (1, 0, 1)
 
-_ZERO = Enclosure(Fraction(0), Fraction(0))
-_ONE = Enclosure(Fraction(1), Fraction(1))
 
+class _Zero(NamedTuple):
+    """A zero of F: a root of a polynomial, real or in the upper half plane."""
 
-@dataclass(frozen=True)
-class ComplexEigenPair:
-    """One class +-v of complex E-eigenvectors.
-
-    Attributes
-    ----------
-    polynomial : tuple of int or None
-        Minimal polynomial of tau = tan t, constant term first; None for the vertical vector.
-    index : int
-        Position among its real roots, or among its roots in the upper half plane.
-    is_real : bool
-        True if the vector is real.
-    conjugate : bool
-        True for the mirror image of a root of the upper half plane.
-    multiplicity : int
-        Multiplicity as a root of F.
-    vanishing : bool
-        True if lambda = 0, decided exactly.
-    """
-
-    polynomial: Integers | None
-    index: int
+    polynomial: Integers | ConstantPolynomial
+    position: int
     is_real: bool
-    conjugate: bool
     multiplicity: int
-    vanishing: bool
-    _numbers: Coefficients = field(repr=False, compare=False)
 
-    def tangent_enclosure(self, digits: int = 15) -> Rectangle:
-        """Return a rectangle that holds tau = tan t, of width 10^-digits relative to 1."""
-        if self.polynomial is None:
-            raise InputError("The vertical E-eigenvector has no finite tangent.")
-        for bits in precisions(bits_for(digits)):
-            found = self._tangent(bits)
-            if all(part.narrower_than(digits) for part in found):
-                return found
-        raise AssertionError("unreachable")
-
-    def vector_enclosure(self, digits: int = 15) -> tuple[Rectangle, Rectangle]:
-        """Return rectangles that hold cos t and sin t of one member of the class.
-
-        It is the same member for any number of digits, and that of `eigenvalue_enclosure`.
-        """
-        first, second = (
-            _narrowed(lambda bits, i=i: self._vector(bits)[i], digits)  # type: ignore[misc]
-            for i in (0, 1)
-        )
-        return first, second
-
-    def eigenvalue_enclosure(self, digits: int = 15) -> Rectangle:
-        """Return a rectangle that holds lambda = f(v), of width 10^-digits max(1, |lambda|)."""
-        return _narrowed(self._eigenvalue, digits)
-
-    def vector(self, digits: int = 15) -> tuple[Any, Any]:
-        """Return (cos t, sin t) of one member of the class as SymPy numbers.
-
-        The digits are proved; they count from the larger of the real and the imaginary part.
-        """
-        first, second = (
-            _rounded(lambda bits, i=i: self._vector(bits)[i], digits)  # type: ignore[misc]
-            for i in (0, 1)
-        )
-        return first, second
-
-    def eigenvalue(self, digits: int = 15) -> Any:
-        """Return lambda = f(v) for that member; -v has the opposite one for odd k."""
-        return sp.Integer(0) if self.vanishing else _rounded(self._eigenvalue, digits)
-
-    def _tangent(self, bits: int) -> Rectangle:
-        assert self.polynomial is not None
-        if self.is_real:
-            return Rectangle(real_roots(self.polynomial, bits)[self.index], _ZERO)
-        found = complex_roots(self.polynomial, bits)[self.index]
-        return Rectangle(found.real, found.imaginary.flip()) if self.conjugate else found
-
-    @cached_property
-    def _turned(self) -> bool:
-        """True if i sqrt(-s) is taken for the root of s = 1 + tau^2, which lies on or near the cut.
-
-        Decided once, so that every precision gives the same of the two vectors.
-        """
-        for bits in precisions():
-            with engine().precision(bits):
-                square = engine().rectangle(self._square(bits))
-            if square.imaginary.sign in (1, -1) or square.real.sign == 1:
-                return False
-            if square.real.sign == -1:
-                return True
-        raise AssertionError("unreachable")
-
-    def _square(self, bits: int) -> Any:
-        tau = engine().complex_interval(self._tangent(bits))
-        return 1 + tau * tau
-
-    def _cosine(self, bits: int) -> Any:
-        square = self._square(bits)
-        if not self._turned:
-            return 1 / engine().sqrt(square)
-        unit = engine().complex_interval(Rectangle(_ZERO, _ONE))
-        return 1 / (unit * engine().sqrt(-square))
-
-    def _vector(self, bits: int) -> tuple[Rectangle, Rectangle]:
-        if self.polynomial is None:
-            return Rectangle(_ZERO, _ZERO), Rectangle(_ONE, _ZERO)
-        with engine().precision(bits):
-            cosine = self._cosine(bits)
-            sine = cosine * engine().complex_interval(self._tangent(bits))
-            return engine().rectangle(cosine), engine().rectangle(sine)
-
-    def _eigenvalue(self, bits: int) -> Rectangle:
-        if self.vanishing:
-            return Rectangle(_ZERO, _ZERO)
-        with engine().precision(bits):
-            coefficients = self._numbers.intervals(bits)
-            if self.polynomial is None:
-                value = coefficients[-1]
-            else:
-                tau = engine().complex_interval(self._tangent(bits))
-                value = horner(coefficients, tau) * self._cosine(bits) ** (len(coefficients) - 1)
-            if self._numbers.factor != 1:
-                value = value * self._numbers.factor_interval(bits)
-            one = engine().complex_interval(Rectangle(_ONE, _ZERO))
-            return engine().rectangle(one * value)
-
-
-def _narrowed(enclose: Callable[[int], Rectangle], digits: int) -> Rectangle:
-    """Return an enclosure of width at most 10^-digits times max(1, |number|)."""
-    for bits in precisions(bits_for(digits)):
-        found = enclose(bits)
-        if found.width * 10**digits <= max(Fraction(1), found.least_size):
-            return found
-    raise AssertionError("unreachable")
-
-
-def _rounded(enclose: Callable[[int], Rectangle], digits: int) -> Any:
-    """Return a number with this many digits; a part too small to show in them is 0."""
-    for bits in precisions(bits_for(digits)):
-        found = enclose(bits)
-        if found.real == found.imaginary == _ZERO:
-            return sp.Integer(0)
-        least = found.least_size
-        if least and found.width * 10 ** (digits + 2) <= least:
-            break
-    parts = [
-        sp.Float(sp.Rational(side.middle.numerator, side.middle.denominator), digits)
-        if abs(side.middle) * 10 ** (digits + 1) > least
-        else sp.Integer(0)
-        for side in found
-    ]
-    return parts[0] + sp.I * parts[1]
+    def place(self, bits: int) -> Rectangle:
+        return places(self.polynomial, bits, self.is_real)[self.position]
 
 
 @dataclass(frozen=True)
@@ -230,8 +88,7 @@ def complex_eigenpairs(face: Face) -> ComplexEigenPairs:
     Parameters
     ----------
     face
-        A tensor, form or row of order k >= 1 with real algebraic coefficients (times a common
-        factor).
+        A tensor, form or row of order k >= 1 with real coefficients that can be enclosed.
 
     Returns
     -------
@@ -241,17 +98,20 @@ def complex_eigenpairs(face: Face) -> ComplexEigenPairs:
     Raises
     ------
     InputError
-        If the order is 0, or a coefficient is symbolic, complex, or transcendental other than by a
-        common factor.
+        If the order is 0, or a coefficient is symbolic or complex.
+    ComputationError
+        As for :func:`real_eigenpairs`.
 
     Notes
     -----
     For algebraic coefficients every squarefree part of F over their field is factored through its
     norm, so that each root comes with its minimal polynomial over Q; which roots of the norm are
-    roots of the part is decided by excluding zero from one of two complementary factors.
+    roots of the part is decided by excluding zero from one of two complementary factors. For other
+    coefficients all complex roots are isolated in balls at once.
 
     Examples
     --------
+    >>> import sympy as sp
     >>> from pdtheory.exact import BinaryForm
     >>> pairs = complex_eigenpairs(BinaryForm([1, 0, sp.Rational(3, 4), 0]))
     >>> [(p.is_real, p.multiplicity, p.eigenvalue(4)) for p in pairs]
@@ -266,37 +126,85 @@ def complex_eigenpairs(face: Face) -> ComplexEigenPairs:
     derivative = form.angular_derivative()
     if derivative.is_zero:
         return ComplexEigenPairs(form.order, "isotropic", (), 0)
-    degree, found = candidates(derivative.coefficients)
-    value = numbers.polynomial
-    real: list[ComplexEigenPair] = []
-    other: list[ComplexEigenPair] = []
-    isotropic = 0
-    for factor, part, multiplicity in found:
-        if factor == ISOTROPIC:
-            isotropic += multiplicity
-            continue
-        for is_real, isolate in ((True, _real_rectangles), (False, complex_roots)):
-            for i in range(len(isolate(factor, FIRST_BITS))):
-
-                def place(bits: int, isolate: Any = isolate, i: int = i) -> Rectangle:
-                    return isolate(factor, bits)[i]  # noqa: B023
-
-                if not is_root(part, factor, place):
-                    continue
-                vanishing = is_root(value, factor, place)
-                target = real if is_real else other
-                for mirrored in (False,) if is_real else (False, True):
-                    target.append(
-                        ComplexEigenPair(
-                            factor, i, is_real, mirrored, multiplicity, vanishing, numbers
-                        )
-                    )
-    vertical = form.order - degree
+    # F = (x^2 + y^2)^m times a form without isotropic zeros, and likewise f up to its mean.
+    isotropic = (form.order - form.row.support[-1]) // 2
+    if Coefficients(derivative.coefficients).in_field:
+        zeros, vertical = _algebraic_zeros(derivative)
+    else:
+        zeros, vertical = _constant_zeros(_without_isotropic(derivative, isotropic))
+    if numbers.in_field:
+        value = numbers.polynomial
+        vanishing = [
+            isinstance(z.polynomial, tuple) and is_root(value, z.polynomial, z.place) for z in zeros
+        ]
+    else:
+        vanishing = _common_zeros(form, zeros)
+    classes = [
+        ComplexEigenPair(
+            z.polynomial, z.position, z.is_real, mirrored, z.multiplicity, vanishes, numbers
+        )
+        for z, vanishes in zip(zeros, vanishing, strict=True)
+        for mirrored in ((False,) if z.is_real else (False, True))
+    ]
     if vertical:
-        zero = form.coefficients[-1] == 0 or value.degree() < form.order
-        real.append(ComplexEigenPair(None, 0, True, False, vertical, zero, numbers))
-    return ComplexEigenPairs(form.order, "ok", (*real, *other), isotropic)
+        zero = is_zero(form.coefficients[-1])
+        classes.append(ComplexEigenPair(None, 0, True, False, vertical, zero, numbers))
+    classes.sort(key=lambda pair: not pair.is_real)
+    return ComplexEigenPairs(form.order, "ok", tuple(classes), isotropic)
 
 
-def _real_rectangles(polynomial: Integers, bits: int) -> list[Rectangle]:
-    return [Rectangle(root, _ZERO) for root in real_roots(polynomial, bits)]
+def _algebraic_zeros(derivative: BinaryForm) -> tuple[list[_Zero], int]:
+    """Return the zeros of F(1, tau) other than +-i, and the multiplicity of the vertical vector."""
+    degree, found = candidates(derivative.coefficients)
+    zeros = [
+        zero
+        for factor, part, multiplicity in found
+        if factor != ISOTROPIC
+        for real in (True, False)
+        for zero in (
+            _Zero(factor, i, real, multiplicity)
+            for i in range(len(places(factor, FIRST_BITS, real)))
+        )
+        if is_root(part, factor, zero.place)
+    ]
+    return zeros, derivative.order - degree
+
+
+def _constant_zeros(derivative: BinaryForm) -> tuple[list[_Zero], int]:
+    """Return the same for a form with constants as coefficients and without isotropic zeros."""
+    at_zero, kept, vertical = without_outer_zeros(derivative.coefficients)
+    zeros = [_Zero((0, 1), 0, True, at_zero)] if at_zero else []
+    for part in squarefree_parts(kept):
+        for real, multiplicities in ((True, part.real), (False, part.upper)):
+            zeros += [_Zero(part.polynomial, i, real, m) for i, m in enumerate(multiplicities) if m]
+    return zeros, vertical
+
+
+def _without_isotropic(form: BinaryForm, power: int) -> BinaryForm:
+    """Divide a form by (x^2 + y^2)^power, of which it is a multiple."""
+    if not power:
+        return form
+    row = form.row
+    order = row.order - 2 * power
+    return WavejetsRow(order, {n: value for n, value in row.phi.items() if n <= order}).form
+
+
+def _common_zeros(form: BinaryForm, zeros: list[_Zero]) -> list[bool]:
+    """Return which zeros of F are zeros of f: the multiple ones of f, those at +-i left out."""
+    numbers = Coefficients(form.coefficients)
+    doubtful = []
+    for zero in zeros:
+        with engine().precision(FIRST_BITS):
+            tau = engine().complex_interval(zero.place(FIRST_BITS))
+            if horner(numbers.intervals(FIRST_BITS), tau).contains(0):
+                doubtful.append(zero)
+    if not doubtful:
+        return [False] * len(zeros)
+    isotropic = (form.order - form.row.support[-1]) // 2
+    found, _ = _constant_zeros(_without_isotropic(form, isotropic))
+    multiple = [z for z in found if z.multiplicity > 1]
+    for bits in precisions():
+        near = [[d for d in doubtful if d.place(bits).overlaps(m.place(bits))] for m in multiple]
+        if all(len(matches) == 1 for matches in near):
+            return [any(z is matches[0] for matches in near) for z in zeros]
+    raise AssertionError("unreachable")

@@ -12,18 +12,14 @@ from typing import Any
 import sympy as sp
 
 from pdtheory.conventions import Kind
-from pdtheory.exact.algebraic import (
-    SHORT,
-    RealAlgebraic,
-    bits_for,
-    precisions,
-    to_float,
-)
+from pdtheory.exact.algebraic import RealAlgebraic
 from pdtheory.exact.balls import engine, horner
 from pdtheory.exact.charpoly import cosine_squared_polynomial, value_polynomial
+from pdtheory.exact.constantroots import RealConstant, RealRoot
 from pdtheory.exact.engines import Integers
 from pdtheory.exact.intervals import Enclosure
-from pdtheory.exact.roots import Coefficients
+from pdtheory.exact.realcoefficients import Coefficients
+from pdtheory.exact.realnumber import SHORT, RealNumber, bits_for, precisions, to_float
 
 #: Largest degree of an eigenvalue whose minimal polynomial is worked out for a text.
 LARGEST_TEXT = 24
@@ -35,8 +31,9 @@ class EigenPair:
 
     Attributes
     ----------
-    tangent : RealAlgebraic or None
-        tan(theta); None for theta = 90 and 270 degrees.
+    tangent : RealNumber or None
+        tan(theta), algebraic or a root of a polynomial with constants as coefficients; None for
+        theta = 90 and 270 degrees.
     opposite : bool
         True if theta is in [180, 360): the vector is minus the one at theta - 180.
     kind : Kind
@@ -47,7 +44,7 @@ class EigenPair:
         True if lambda = 0, decided exactly.
     """
 
-    tangent: RealAlgebraic | None
+    tangent: RealNumber | None
     opposite: bool
     kind: Kind
     multiplicity: int
@@ -77,27 +74,56 @@ class EigenPair:
     def _short_cosine_squared(self) -> Any | None:
         """cos(theta)^2 in radicals if tan(theta) and it are short, else None."""
         tangent = self.tangent
-        if tangent is None or tangent.radical is None:
+        if not isinstance(tangent, RealAlgebraic) or tangent.radical is None:
             return None
         polynomial = cosine_squared_polynomial(tangent.polynomial)
         return RealAlgebraic.select(polynomial, partial(_cosine_squared, tangent)).radical
 
     @cached_property
-    def eigenvalue_number(self) -> RealAlgebraic:
-        """lambda as a real algebraic number, with its minimal polynomial.
+    def eigenvalue_number(self) -> RealNumber:
+        """lambda as a real number: algebraic with its minimal polynomial, or by its expression.
 
         Where the coefficients have a transcendental common factor it is lambda over that factor.
         """
         if self.vanishing:
             return RealAlgebraic.rational(0)
+        if not self._is_algebraic:
+            return RealConstant(self._turned * self._value_expression)
         coefficients = self._numbers.in_generator
         modulus: Integers = (0, 1)
         if self.tangent is None:
             coefficients = coefficients[::-1]
         else:
+            assert isinstance(self.tangent, RealAlgebraic)
             modulus = self.tangent.polynomial
         polynomial = value_polynomial(coefficients, self._numbers.generator.polynomial, modulus)
         return RealAlgebraic.select(polynomial, lambda bits: self._enclose_eigenvalue(bits, False))
+
+    @property
+    def _is_algebraic(self) -> bool:
+        """True if lambda over the common factor and tan(theta) have minimal polynomials."""
+        return self._numbers.in_field and not isinstance(self.tangent, RealRoot)
+
+    @property
+    def _value_expression(self) -> Any:
+        """f(v) for v = (1, t) / sqrt(1 + t^2), or (0, 1)."""
+        coefficients = self._numbers.expressions
+        if self.tangent is None:
+            return coefficients[-1]
+        t = self.tangent.exact
+        if t == 0:
+            return coefficients[0]
+        order = len(coefficients) - 1
+        value = sp.Add(*(c * t**j for j, c in enumerate(coefficients)))
+        return value / (1 + t**2) ** sp.Rational(order, 2)
+
+    @property
+    def _turned(self) -> int:
+        """The sign of lambda relative to that of the vector with positive cosine, or (0, 1)."""
+        turned = self.opposite
+        if self.tangent is not None and self.tangent.sign() < 0:
+            turned = not turned
+        return -1 if turned and len(self._numbers.expressions) % 2 == 0 else 1
 
     @property
     def eigenvalue(self) -> Any:
@@ -156,25 +182,28 @@ class EigenPair:
 
     def eigenvalue_text(self, digits: int = 15) -> str:
         """Return lambda for people; beyond a degree of `LARGEST_TEXT` by its enclosure alone."""
-        degree = self._numbers.generator.degree * (self.tangent.degree if self.tangent else 1)
-        if self.vanishing or degree <= LARGEST_TEXT:
+        if self.vanishing or self._text_degree <= LARGEST_TEXT:
             text = self.eigenvalue_number.text(digits)
             factor = self._numbers.factor
             return text if factor == 1 else f"{factor} times {text}"
         return f"a number in {self.eigenvalue_enclosure(digits).text(digits)}"
 
+    @property
+    def _text_degree(self) -> int:
+        """A bound on the degree of lambda; 1 where it is no matter of a minimal polynomial."""
+        if not self._is_algebraic:
+            return 1
+        degree = self.tangent.degree if isinstance(self.tangent, RealAlgebraic) else 1
+        return self._numbers.generator.degree * degree
+
     def _enclose_eigenvalue(self, bits: int, with_factor: bool = True) -> Enclosure:
         if self.vanishing:
             return Enclosure(Fraction(0), Fraction(0))
         value = _value(self._numbers, self.tangent, bits, with_factor)
-        turned = self.opposite
-        if self.tangent is not None and self.tangent.sign() < 0:
-            turned = not turned
-        odd = len(self._numbers.expressions) % 2 == 0
-        return value.flip() if turned and odd else value
+        return value.flip() if self._turned < 0 else value
 
 
-def _angle(tangent: RealAlgebraic, bits: int) -> Enclosure:
+def _angle(tangent: RealNumber, bits: int) -> Enclosure:
     """Return an enclosure of atan(t) in degrees."""
     with engine().precision(bits):
         t = engine().interval(tangent.at_precision(bits))
@@ -191,7 +220,7 @@ def _cosine_squared(tangent: RealAlgebraic, bits: int) -> Enclosure:
 # A pair and its opposite ask for the same value one after the other.
 @lru_cache(maxsize=256)
 def _value(
-    numbers: Coefficients, tangent: RealAlgebraic | None, bits: int, with_factor: bool
+    numbers: Coefficients, tangent: RealNumber | None, bits: int, with_factor: bool
 ) -> Enclosure:
     """Return an enclosure of f(v) for v = (1, t) / sqrt(1 + t^2), or (0, 1)."""
     order = len(numbers.expressions) - 1

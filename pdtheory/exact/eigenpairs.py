@@ -12,15 +12,13 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from pdtheory.conventions import Kind
-from pdtheory.exact.algebraic import (
-    RealAlgebraic,
-    precisions,
-)
-from pdtheory.exact.balls import engine
+from pdtheory.exact.balls import engine, horner
 from pdtheory.exact.coefficients import check_order
 from pdtheory.exact.eigenpair import EigenPair
 from pdtheory.exact.faces import BinaryForm, Face
-from pdtheory.exact.roots import Coefficients, form_roots
+from pdtheory.exact.realcoefficients import Coefficients
+from pdtheory.exact.realnumber import FIRST_BITS, RealNumber, precisions
+from pdtheory.exact.roots import form_roots
 from pdtheory.exact.zeros import is_zero
 
 Outcome = Literal["ok", "isotropic", "vanishing"]
@@ -97,7 +95,8 @@ def real_eigenpairs(face: Face) -> EigenPairs:
     Parameters
     ----------
     face
-        A tensor, binary form or Wavejets row of order k >= 1 with real algebraic coefficients.
+        A tensor, binary form or Wavejets row of order k >= 1 with real coefficients that can be
+        enclosed: algebraic numbers, pi, values of exponentials and the like.
 
     Returns
     -------
@@ -108,8 +107,10 @@ def real_eigenpairs(face: Face) -> EigenPairs:
     Raises
     ------
     InputError
-        If the order is 0, or a coefficient is symbolic, complex, or transcendental other than by a
-        common factor (a form that is constant on the circle may have any).
+        If the order is 0, or a coefficient is symbolic or complex.
+    ComputationError
+        If a coefficient cannot be enclosed, or a number that decides on degree or multiplicity is
+        too close to zero to be told from it and no proof is known either way.
 
     Notes
     -----
@@ -132,10 +133,8 @@ def real_eigenpairs(face: Face) -> EigenPairs:
     derivative = form.angular_derivative()
     if derivative.is_zero:
         return EigenPairs(form, "isotropic", ())
-    _ = numbers.in_generator  # refuses transcendental coefficients without a common factor
-    # f and its derivative along the circle vanish together at the multiple zeros of f.
-    zeros = {root.value for root in form_roots(form.coefficients, least_multiplicity=2)}
     half = _half_circle(derivative)
+    zeros = _common_zeros(form, numbers, [tangent for tangent, _, _ in half])
     pairs = [
         EigenPair(
             tangent,
@@ -151,7 +150,40 @@ def real_eigenpairs(face: Face) -> EigenPairs:
     return EigenPairs(form, "ok", tuple(pairs))
 
 
-def _half_circle(derivative: BinaryForm) -> list[tuple[RealAlgebraic | None, int, int]]:
+def _common_zeros(
+    form: BinaryForm, numbers: Coefficients, critical: list[RealNumber | None]
+) -> set[RealNumber | None]:
+    """Return the zeros of f among the zeros of F, which are the multiple zeros of f."""
+    if numbers.in_field:
+        return {root.value for root in form_roots(form.coefficients, least_multiplicity=2)}
+    doubtful = [t for t in critical if t is not None and not _excludes_zero(numbers, t, FIRST_BITS)]
+    vertical: set[RealNumber | None] = {
+        t for t in critical if t is None and is_zero(form.coefficients[-1])
+    }
+    if not doubtful:
+        return vertical
+    multiple = [
+        r.value for r in form_roots(form.coefficients, least_multiplicity=2) if r.value is not None
+    ]
+    for bits in precisions():
+        near = [
+            [t for t in doubtful if t.at_precision(bits).overlaps(zero.at_precision(bits))]
+            for zero in multiple
+        ]
+        # A multiple zero of f is one of the zeros of F: the only one that is near enough at last.
+        if all(len(found) == 1 for found in near):
+            return vertical | {found[0] for found in near}
+    raise AssertionError("unreachable")
+
+
+def _excludes_zero(numbers: Coefficients, tangent: RealNumber, bits: int) -> bool:
+    """Return whether f(1, t) is seen not to vanish."""
+    with engine().precision(bits):
+        t = engine().interval(tangent.at_precision(bits))
+        return not horner(numbers.intervals(bits), t).contains(0)
+
+
+def _half_circle(derivative: BinaryForm) -> list[tuple[RealNumber | None, int, int]]:
     """Return (tan theta, multiplicity, kind) of the zeros of F for theta in [0, 180) degrees."""
     order = derivative.order
     before = _sign_after_minus_90(derivative)

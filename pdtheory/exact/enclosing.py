@@ -1,24 +1,23 @@
 """Enclosures of exact constants: any expression without symbols, to any precision.
 
-python-flint evaluates the expression once in Arb's complex balls, which is proved. Without it, and
-for functions that Arb does not know, SymPy's evaluation to a given accuracy takes its place.
+The expression is evaluated once in Arb's complex balls, which is proved. A function that Arb does
+not know has no enclosure.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
 from functools import lru_cache
 from math import floor, log10
 from typing import Any, Final
 
 import sympy as sp
-from sympy.core.evalf import PrecisionExhausted
 
 from pdtheory.errors import ComputationError
-from pdtheory.exact.algebraic import bits_for, precisions
-from pdtheory.exact.balls import engine
-from pdtheory.exact.engines import FlintEngine
+from pdtheory.exact.balls import engine, real_roots
 from pdtheory.exact.intervals import Enclosure, Rectangle
+from pdtheory.exact.realnumber import bits_for, precisions
 
 #: Functions by their names in Arb; the principal branches of both libraries agree.
 _ARB: Final = {
@@ -38,8 +37,25 @@ _ARB: Final = {
     sp.asinh: "asinh",
     sp.acosh: "acosh",
     sp.atanh: "atanh",
+    sp.sec: "sec",
+    sp.csc: "csc",
+    sp.sech: "sech",
+    sp.csch: "csch",
+    sp.sinc: "sinc",
     sp.erf: "erf",
     sp.erfc: "erfc",
+    sp.erfi: "erfi",
+    sp.gamma: "gamma",
+    sp.LambertW: "lambertw",
+    sp.zeta: "zeta",
+    sp.Abs: "__abs__",
+}
+#: Functions whose first argument is their order.
+_ARB_BY_ORDER: Final = {
+    sp.besselj: "bessel_j",
+    sp.bessely: "bessel_y",
+    sp.besseli: "bessel_i",
+    sp.besselk: "bessel_k",
 }
 
 
@@ -54,10 +70,8 @@ def enclose(expression: Any, bits: int) -> Rectangle | None:
         Working precision in bits.
     """
     here = engine()
-    if not isinstance(here, FlintEngine):
-        return _by_evaluation(expression, bits)
     with here.precision(bits):
-        ball = _Arb(here, bits).ball(expression)
+        ball = _Arb(bits).ball(expression)
         if ball is None or not ball.is_finite():
             return None
         return Rectangle(here.enclosure(ball.real), here.enclosure(ball.imag))
@@ -80,6 +94,23 @@ def enclose_real(expression: Any, bits: int) -> Enclosure:
     return found.real
 
 
+def real_balls(expressions: Sequence[Any], bits: int) -> list[Any]:
+    """Return balls for several real constants, their common subexpressions evaluated once.
+
+    Raises
+    ------
+    ComputationError
+        If one of them cannot be enclosed.
+    """
+    with engine().precision(bits):
+        evaluation = _Arb(bits)
+        found = [evaluation.ball(e) for e in expressions]
+        for e, ball in zip(expressions, found, strict=True):
+            if ball is None or not ball.is_finite():
+                raise ComputationError(f"The number {e} could not be enclosed with {bits} bits.")
+        return [ball.real for ball in found]
+
+
 def is_finite(expression: Any) -> bool:
     """Return whether a constant is proved to have a finite value, without a division by zero."""
     return expression.is_Rational or any(enclose(expression, b) for b in (64, 512, 4096))
@@ -88,9 +119,8 @@ def is_finite(expression: Any) -> bool:
 class _Arb:
     """One evaluation in complex balls, every subexpression once."""
 
-    def __init__(self, flint_engine: FlintEngine, bits: int) -> None:
-        self.flint = flint_engine.library
-        self.engine = flint_engine
+    def __init__(self, bits: int) -> None:
+        self.flint = engine().library
         self.bits = bits
         self.known: dict[Any, Any] = {}
 
@@ -109,12 +139,21 @@ class _Arb:
             return acb(self.flint.arb.pi())
         if node is sp.E:
             return acb(1).exp()
-        definition = getattr(node, "definition", None)
-        if definition is not None:
+        if node is sp.EulerGamma:
+            return acb(self.flint.arb.const_euler())
+        if node is sp.Catalan:
+            return acb(self.flint.arb.const_catalan())
+        if node is sp.GoldenRatio:
+            return (1 + acb(5).sqrt()) / 2
+        if hasattr(node, "definition"):
             return _named_ball(node, self.bits)
-        parts = [self.ball(a) for a in node.args] if node.args else []
+        if hasattr(node, "enclosure_at"):
+            return acb(engine().interval(node.enclosure_at(self.bits)))
+        if isinstance(node, sp.CRootOf):
+            return self._root(node)
+        parts = [self.ball(a) for a in node.args]
         if not parts or any(p is None for p in parts):
-            return self._evaluated(node)
+            return None
         if node.is_Add or node.is_Mul:
             total = parts[0]
             for part in parts[1:]:
@@ -122,8 +161,20 @@ class _Arb:
             return total
         if node.is_Pow:
             return self._power(node, *parts)
+        if len(parts) == 2 and node.func in _ARB_BY_ORDER:
+            return getattr(parts[1], _ARB_BY_ORDER[node.func])(parts[0])
         name = _ARB.get(node.func)
-        return getattr(parts[0], name)() if name and len(parts) == 1 else self._evaluated(node)
+        return acb(getattr(parts[0], name)()) if name and len(parts) == 1 else None
+
+    def _root(self, node: Any) -> Any:
+        """Return a real root of an integer polynomial; SymPy numbers the real ones first."""
+        coefficients = node.poly.all_coeffs()[::-1]
+        if not all(c.is_Integer for c in coefficients):
+            return None
+        found = real_roots(tuple(int(c) for c in coefficients), self.bits)
+        if node.index >= len(found):
+            return None
+        return self.flint.acb(engine().interval(found[node.index]))
 
     def _power(self, node: Any, base: Any, exponent: Any) -> Any:
         if node.exp.is_Integer:
@@ -132,40 +183,11 @@ class _Arb:
             return base.sqrt() ** int(node.exp.p)
         return base**exponent
 
-    def _evaluated(self, node: Any) -> Any:
-        found = _by_evaluation(node, self.bits)
-        if found is None:
-            return None
-        return self.flint.acb(*(self.engine.interval(part) for part in found))
-
 
 # Many coefficients of one jet are made of the same named constants.
 @lru_cache(maxsize=1024)
 def _named_ball(node: Any, bits: int) -> Any:
-    here = engine()
-    assert isinstance(here, FlintEngine)
-    return _Arb(here, bits).ball(node.definition)
-
-
-def _by_evaluation(expression: Any, bits: int) -> Rectangle | None:
-    """Enclose a constant by SymPy's evaluation to a given accuracy."""
-    digits = int(bits * 0.302) + 5
-    # The accuracy of SymPy is relative: beside a number of the size of 1 it is absolute.
-    for shift in (0, 1, 3):
-        try:
-            value = (expression + shift).evalf(digits, maxn=4 * digits, strict=True)
-            parts = [sp.Rational(p) for p in value.as_real_imag()]
-        except (PrecisionExhausted, TypeError, ValueError):
-            continue
-        parts[0] -= shift
-        break
-    else:
-        return None
-    fractions = [Fraction(int(p.p), int(p.q)) for p in parts]
-    slack = max(Fraction(1), *(abs(f) for f in fractions)) / 2 ** (bits - 8)
-    # A part that is an exact zero was recognised as one.
-    sides = [Enclosure(f - slack, f + slack) if f else Enclosure(f, f) for f in fractions]
-    return Rectangle(*sides)
+    return _Arb(bits).ball(node.definition)
 
 
 def nearest_double(value: Any) -> float:

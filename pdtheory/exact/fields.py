@@ -22,7 +22,12 @@ from sympy.polys.rings import ring
 from pdtheory.exact.coefficients import tidy
 from pdtheory.exact.faces import BinaryForm
 from pdtheory.exact.powerseries import Series
-from pdtheory.exact.separation import MOST_SQUARE_ROOTS, extent, is_square_root
+from pdtheory.exact.separation import (
+    MOST_SQUARE_ROOTS,
+    extent,
+    is_known_algebraic,
+    is_square_root,
+)
 from pdtheory.exact.zeros import is_zero
 
 
@@ -40,6 +45,8 @@ class Field:
     ----------
     divides : bool
         True if the coefficients form a field, so that they may be divided.
+    numbers : list
+        The numbers that stand beside those of the ground field, such as pi.
     """
 
     def __init__(self, constants: Iterable[Any], variables: str = "x,y") -> None:
@@ -52,20 +59,20 @@ class Field:
         )
         if not self.divides:
             atoms = self._atoms(listed, into_quotients=False)
+        self.numbers = [a for a in atoms if not a.is_Symbol]
         self._names = {a: a if a.is_Symbol else sp.Dummy() for a in atoms}
         self._meaning = {name: a for a, name in self._names.items()}
+        parts = [*self._algebraic_parts(listed, into_quotients=self.divides), sp.Integer(1)]
+        ground, elements = sp.construct_domain(parts, extension=True, field=True)
+        symbols = [*self._names.values()]
         if self.divides:
-            hidden = [c.xreplace(self._names) for c in listed]
-            self.domain, elements = sp.construct_domain(hidden, extension=True, field=True)
-            self._known = dict(zip(listed, elements, strict=True))
+            self.domain = ground.frac_field(*symbols) if symbols else ground
         else:
-            numbers = [*self._algebraic_parts(listed), sp.Integer(1)]
-            ground, elements = sp.construct_domain(numbers, extension=True, field=True)
-            self.domain = ground.poly_ring(*self._names.values())
-            self._known = {
-                c: self.domain.convert_from(e, ground)
-                for c, e in zip(numbers, elements, strict=True)
-            }
+            self.domain = ground.poly_ring(*symbols)
+        if symbols:
+            elements = [self.domain.convert_from(e, ground) for e in elements]
+        self._known = dict(zip(parts, elements, strict=True))
+        if symbols:
             self._known.update(zip(self._names, self.domain.gens, strict=True))
         self.ring, *self.variables = ring(variables, self.domain)
 
@@ -73,18 +80,15 @@ class Field:
         """Return a constant as a coefficient."""
         constant = sp.sympify(constant, strict=True)
         if constant not in self._known:
-            self._known[constant] = (
-                self.domain.from_sympy(constant.xreplace(self._names))
-                if self.divides
-                else self._composed(constant)
-            )
+            self._known[constant] = self._composed(constant)
         return self._known[constant]
 
     def _composed(self, constant: Any) -> Any:
         if constant.is_Rational:
             return self.domain.convert(sp.QQ(int(constant.p), int(constant.q)), sp.QQ)
         if constant.is_Pow:
-            return self.element(constant.base) ** int(constant.exp)
+            power, whole = self.element(constant.base), int(constant.exp)
+            return power**whole if whole >= 0 else (self.domain.one / power) ** -whole
         parts = [self.element(a) for a in constant.args]
         return sum(parts, self.domain.zero) if constant.is_Add else reduce(mul, parts)
 
@@ -138,8 +142,8 @@ class Field:
             walk(constant)
         return [*found]
 
-    def _algebraic_parts(self, constants: Iterable[Any]) -> list[Any]:
-        """Return the algebraic numbers in sums, products and positive powers."""
+    def _algebraic_parts(self, constants: Iterable[Any], *, into_quotients: bool) -> list[Any]:
+        """Return the algebraic numbers in sums, products and powers."""
         found: dict[Any, None] = {}
 
         def walk(node: Any) -> None:
@@ -148,7 +152,7 @@ class Field:
             elif node.is_Add or node.is_Mul:
                 for part in node.args:
                     walk(part)
-            elif node.is_Pow and node.exp.is_Integer and node.exp > 0:
+            elif node.is_Pow and node.exp.is_Integer and (into_quotients or node.exp > 0):
                 walk(node.base)
 
         for constant in constants:
@@ -162,9 +166,9 @@ def _membership(constants: Sequence[Any]) -> Callable[[Any], bool]:
     All algebraic numbers do if the field that they generate is small enough, else those of square
     roots of rational numbers, or rational numbers alone.
     """
-    size = extent(c for c in constants if _is_algebraic(c))
+    size = extent(c for c in constants if is_known_algebraic(c))
     if size.is_small:
-        return _is_algebraic
+        return is_known_algebraic
     if size.square_roots <= MOST_SQUARE_ROOTS:
         return _is_of_square_roots
     return lambda node: bool(node.is_Rational)
@@ -177,7 +181,3 @@ def _is_of_square_roots(node: Any) -> bool:
     return bool(node.is_Add or node.is_Mul or whole) and all(
         _is_of_square_roots(a) for a in node.args
     )
-
-
-def _is_algebraic(node: Any) -> bool:
-    return bool(node.is_Rational or (not node.free_symbols and node.is_algebraic))

@@ -78,6 +78,10 @@ class Rectangle(NamedTuple):
         """True if the number is proved not to be zero."""
         return any(side.sign in (1, -1) for side in self)
 
+    def overlaps(self, other: Rectangle) -> bool:
+        """Return whether the two rectangles share a point."""
+        return self.real.overlaps(other.real) and self.imaginary.overlaps(other.imaginary)
+
     @property
     def width(self) -> Fraction:
         """The longer side."""

@@ -9,11 +9,10 @@ import sympy as sp
 
 from pdtheory.conventions import DEFAULT_DEGREE, SIGMA_RATIO
 from pdtheory.errors import InputError
-from pdtheory.exact.algebraic import bits_for, precisions
 from pdtheory.exact.balls import engine
 from pdtheory.exact.enclosing import enclose_real, rounded
-from pdtheory.exact.engines import FlintEngine
 from pdtheory.exact.intervals import Enclosure
+from pdtheory.exact.realnumber import bits_for, precisions
 
 Weight = Literal["gaussian", "uniform"]
 Measure = Literal["flat", "surface"]
@@ -132,15 +131,14 @@ def coefficient_numbers(n: int, degree: int, weight: Weight, constant: bool) -> 
     """Return c_{k,n}(K) by k for one frequency n, to 80 certified digits, as rational numbers.
 
     The system of the moments is solved in balls; the closed forms of `cone_coefficient` take a
-    second at K = 10. Where they are rational, and where python-flint is not installed, they are
-    taken.
+    second at K = 10. Where they are rational, they are taken.
     """
     orders = [k for k in range(n, degree + 1, 2) if constant or k > 0]
-    here = engine()
-    if n == 1 or weight == "uniform" or not isinstance(here, FlintEngine):
+    if n == 1 or weight == "uniform":
         exact = _solution(n, degree, weight, constant)
         return {k: rounded(_closed(exact[k]), NUMBER_DIGITS) if exact[k] else exact[k]
                 for k in orders}  # fmt: skip
+    here = engine()
     flint = here.library
     for bits in precisions(2 * bits_for(NUMBER_DIGITS)):
         with here.precision(bits):

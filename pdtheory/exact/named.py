@@ -7,14 +7,37 @@ from typing import Any, Final
 import mpmath
 import sympy as sp
 
-from pdtheory.exact.algebraic import precisions
 from pdtheory.exact.enclosing import enclose
+from pdtheory.exact.realnumber import precisions
 
 #: Longest definition, in nodes of the expression, that stays in sight.
 LONGEST_PLAIN: Final = 24
 
 
-class NamedConstant(sp.AtomicExpr):
+class EnclosedConstant(sp.AtomicExpr):
+    """A real number that prints like a symbol and is evaluated by its enclosures."""
+
+    __slots__ = ()
+
+    is_number = True
+    is_commutative = True
+    is_real = True
+
+    def _eval_evalf(self, prec: int) -> Any:
+        for bits in precisions(prec + 32):
+            found = enclose(self, bits)
+            if found is None:
+                continue
+            size = min(abs(found.real.lower), abs(found.real.upper))
+            if found.real.width * 2 ** (prec + 2) <= size:
+                middle = found.real.middle
+                with mpmath.workprec(prec + 8):
+                    value = mpmath.mpf(middle.numerator) / middle.denominator
+                return sp.Float._new(value._mpf_, prec)
+        raise AssertionError("unreachable")
+
+
+class NamedConstant(EnclosedConstant):
     """A real number with a name and an exact definition, itself perhaps of named constants.
 
     It adds, multiplies and prints like a symbol, and is evaluated, compared and decided by its
@@ -29,10 +52,6 @@ class NamedConstant(sp.AtomicExpr):
     """
 
     __slots__ = ("definition", "name")
-
-    is_number = True
-    is_commutative = True
-    is_real = True
 
     name: str
     definition: Any
@@ -51,19 +70,6 @@ class NamedConstant(sp.AtomicExpr):
     def doit(self, **hints: Any) -> Any:
         """Return the definition, with the definitions inside it."""
         return self.definition.doit(**hints)
-
-    def _eval_evalf(self, prec: int) -> Any:
-        for bits in precisions(prec + 32):
-            found = enclose(self, bits)
-            if found is None:
-                continue
-            size = min(abs(found.real.lower), abs(found.real.upper))
-            if found.real.width * 2 ** (prec + 2) <= size:
-                middle = found.real.middle
-                with mpmath.workprec(prec + 8):
-                    value = mpmath.mpf(middle.numerator) / middle.denominator
-                return sp.Float._new(value._mpf_, prec)
-        raise AssertionError("unreachable")
 
     def _sympystr(self, printer: Any) -> str:
         return self.name

@@ -8,6 +8,7 @@ degree D; if u and l bound all conjugates of U and L, then U = 0 or |U / L| >= 1
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import lru_cache
 from math import ceil, isqrt, lcm, log2, prod
 from typing import Any, Final, NamedTuple
 
@@ -106,6 +107,21 @@ def extent(numbers: Iterable[Any]) -> Extent:
         stack.extend(node.args)
     turns = max(1, int(sp.totient(conductor)) // 2)
     return Extent(len(products), turns * prod(others.values()))
+
+
+@lru_cache(maxsize=4096)
+def is_known_algebraic(node: Any) -> bool:
+    """Return whether an expression is made of what this module covers.
+
+    Unlike the assumptions of SymPy it evaluates nothing.
+    """
+    if node.is_Rational or isinstance(node, sp.CRootOf) or node is sp.GoldenRatio:
+        return True
+    if isinstance(node, (sp.cos, sp.sin, sp.tan, sp.cot, sp.sec, sp.csc)):
+        return bool((node.args[0] / sp.pi).is_Rational)
+    if node.is_Add or node.is_Mul:
+        return all(is_known_algebraic(part) for part in node.args)
+    return bool(node.is_Pow and node.exp.is_Rational) and is_known_algebraic(node.base)
 
 
 def is_square_root(node: Any) -> bool:

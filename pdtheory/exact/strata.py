@@ -18,7 +18,8 @@ from pdtheory.errors import InputError
 from pdtheory.exact.characteristic import sylvester_resultant
 from pdtheory.exact.coefficients import check_order, exact
 from pdtheory.exact.faces import Face
-from pdtheory.exact.roots import Coefficients
+from pdtheory.exact.realcoefficients import Coefficients
+from pdtheory.exact.roots import form_roots
 from pdtheory.exact.wavejets import WavejetsRow
 from pdtheory.exact.zeros import sign
 
@@ -31,7 +32,7 @@ def count_maxima(face: Face) -> int:
     Parameters
     ----------
     face
-        A tensor, form or row of order k >= 1 with real algebraic coefficients.
+        A tensor, form or row of order k >= 1 with real coefficients that can be enclosed.
 
     Returns
     -------
@@ -42,12 +43,18 @@ def count_maxima(face: Face) -> int:
     -----
     F changes sign exactly at its real zeros of odd multiplicity, on the half circle and, by parity,
     at their opposites, so that they number as many as the maxima on the circle. The squarefree
-    parts of odd multiplicity are counted by the sign variations of their Sturm sequences.
+    parts of odd multiplicity are counted by the sign variations of their Sturm sequences; where
+    the coefficients lie in no small number field, by isolating all complex roots in balls.
     """
     form = face.form
     check_order(form.order, 1)
     derivative = form.angular_derivative()
     numbers = Coefficients(derivative.coefficients)
+    numbers.check_real_numbers()
+    if not numbers.in_field:
+        if derivative.is_zero:
+            return 0
+        return sum(root.multiplicity % 2 for root in form_roots(derivative.coefficients))
     field, elements = numbers.field_elements
     poly = sp.Poly.from_list(elements[::-1], _T, domain=field)
     if poly.is_zero:

@@ -14,9 +14,9 @@ from typing import Any, Final
 import sympy as sp
 
 from pdtheory.errors import ComputationError
-from pdtheory.exact.algebraic import precisions
 from pdtheory.exact.enclosing import enclose
 from pdtheory.exact.exponentials import Root, Term, TooLong, numerator_terms
+from pdtheory.exact.realnumber import precisions
 from pdtheory.exact.separation import separation_bits
 
 #: Bits of the enclosures in which a constant may show that it is not zero, before a proof of zero
@@ -163,15 +163,17 @@ def _vanishes_identically(value: Any) -> bool:
     return bool(sp.simplify(expanded) == 0)
 
 
-def _is_short(value: Any) -> bool:
-    """Return whether an expression has few operations, without walking a long one through."""
+def size_of(value: Any, most: int = LONGEST_SIMPLIFIED) -> int:
+    """Return the number of nodes of an expression; any number above `most` if there are more."""
     stack, count = [value], 0
-    while stack:
+    while stack and count <= most:
         count += 1
-        if count > LONGEST_SIMPLIFIED:
-            return False
         stack.extend(stack.pop().args)
-    return True
+    return count
+
+
+def _is_short(value: Any) -> bool:
+    return size_of(value) <= LONGEST_SIMPLIFIED
 
 
 def _shown(value: Any) -> str:

@@ -17,6 +17,7 @@ from pdtheory.conventions import Kind
 from pdtheory.exact import (
     BinaryForm,
     EigenPairs,
+    RealAlgebraic,
     SymmetricTensor,
     WavejetsRow,
     characteristic_polynomial,
@@ -186,7 +187,9 @@ def test_eigenvalues_are_characteristic_roots(form: BinaryForm) -> None:
     assume(_lists_pairs(pairs))
     psi = characteristic_polynomial(form).polynomial
     for pair in pairs:
-        minimal = sp.Poly(pair.eigenvalue_number.polynomial[::-1], psi.gen)
+        number = pair.eigenvalue_number
+        assert isinstance(number, RealAlgebraic)
+        minimal = sp.Poly(number.polynomial[::-1], psi.gen)
         assert sp.rem(psi, minimal, domain="QQ").is_zero
     assert complex_eigenpairs(form).count == form.row.support[-1]
 

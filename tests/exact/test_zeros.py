@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pdtheory.errors import ComputationError
-from pdtheory.exact import BinaryForm, enclosing, engines, taylor_forms
+from pdtheory.exact import BinaryForm, enclosing, taylor_forms
 from pdtheory.exact.enclosing import enclose, nearest_double
 from pdtheory.exact.named import NamedConstant
 from pdtheory.exact.separation import separation_bits
@@ -69,13 +69,6 @@ def test_a_near_miss_is_no_zero(value):
 def test_what_cannot_be_proved_is_refused(value):
     with pytest.raises(ComputationError, match="could not be proved"):
         is_zero(value)
-
-
-@pytest.mark.parametrize("value", ZEROS[:6] + NEAR[:4], ids=str)
-def test_without_flint(monkeypatch, value):
-    engine = engines.SympyEngine()
-    monkeypatch.setattr("pdtheory.exact.enclosing.engine", lambda: engine)
-    assert is_zero(value) == any(value is z for z in ZEROS)
 
 
 roots = st.builds(
