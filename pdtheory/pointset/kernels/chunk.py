@@ -232,7 +232,7 @@ def fit_chunk(
             n += 1
         fit = fit_point(cloud, points, n, references[q], settings, w)
         if settings.robust and not fit.status & _UNANSWERED:
-            fit = fit_robustly(cloud, points, n, fit, settings, w)
+            fit = fit_robustly(cloud, n, fit, w)
         out.neighbours[q] = fit.neighbours
         if fit.status & _UNANSWERED:
             out.status[q] = fit.status

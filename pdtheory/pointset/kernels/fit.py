@@ -244,8 +244,9 @@ def fit_point(
 ) -> Fit:
     """Fit the surface at one point by least squares.
 
-    On return ``w.frame`` is the frame of the fit, ``w.c`` the coefficients about the weighted mean
-    in it, ``w.G`` the factor.
+    On return ``w.frame`` is the frame of the fit, ``w.c`` the coefficients about the origin in it,
+    ``w.centred`` those about the weighted mean, ``w.G`` the factor; the cloud holds coordinates and
+    residuals.
 
     Parameters
     ----------
@@ -289,6 +290,8 @@ def fit_point(
         if refined:
             refine(cloud, WEIGHT, n, degree, w)
             residual = misfit(cloud, n, degree, weight, w)
+        for i in range(len(w.c)):
+            w.centred[i] = w.c[i]
         shift(w.c, degree, cx, cy, w.table, w.middle)
         if turn == turns or not tilt_matters(w.c, degree, trusted * residual, w.norms):
             break

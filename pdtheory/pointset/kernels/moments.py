@@ -7,9 +7,9 @@ from typing import Any
 from pdtheory.pointset.kernels.lanes import LANES, Lanes, Rows, emit
 
 #: Rows of a cloud: coordinates relative to the query and squared distance, in units of the radius;
-#: weights; coordinates in the local frame; residuals; products; weights of l1.
-DX, DY, DZ, SQUARED, WEIGHT, X, Y, Z, RESIDUAL, PRODUCT, REWEIGHT = range(11)
-CLOUD_ROWS = 11
+#: weights; coordinates in the local frame; residuals; products; weights and last residuals of l1.
+DX, DY, DZ, SQUARED, WEIGHT, X, Y, Z, RESIDUAL, PRODUCT, REWEIGHT, BEFORE = range(12)
+CLOUD_ROWS = 12
 #: Most points whose powers are kept at a time, so that these stay in the nearest cache.
 BLOCK = 320
 #: Powers of x in a tile; those of y are as many as a vector has lanes.

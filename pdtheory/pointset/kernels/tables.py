@@ -84,6 +84,7 @@ WORKSPACE = layout(
     inverses=(_COLUMNS,),
     spare=(_COLUMNS,),
     c=(_COLUMNS,),
+    centred=(_COLUMNS,),
     y=(_COLUMNS,),
     v=(_COLUMNS,),
     step=(_COLUMNS,),
