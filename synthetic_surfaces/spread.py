@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import heapq
-
 import numpy as np
 from scipy.spatial import cKDTree
 
@@ -55,28 +53,42 @@ def thin(points: FloatArray, count: int, area: float | None = None) -> IntArray:
         nearest, _ = tree.query(points, k=[2])
         area = len(points) * 4.0 * float(np.mean(nearest)) ** 2
     reach = 2.0 * np.sqrt(area / (2.0 * np.sqrt(3.0) * count))
-    pairs = tree.query_pairs(reach, output_type="ndarray")
-    distance = np.linalg.norm(points[pairs[:, 0]] - points[pairs[:, 1]], axis=1)
-    weight = (1.0 - distance / reach) ** _ALPHA
-    ends = np.concatenate([pairs[:, 0], pairs[:, 1]])
-    others = np.concatenate([pairs[:, 1], pairs[:, 0]])
-    order = np.argsort(ends, kind="stable")
-    start = np.concatenate(([0], np.cumsum(np.bincount(ends, minlength=len(points))))).tolist()
-    neighbour, share = others[order].tolist(), np.concatenate([weight, weight])[order].tolist()
-    load = np.bincount(ends, np.concatenate([weight, weight]), len(points)).tolist()
-    heap = [(-value, index) for index, value in enumerate(load)]
-    heapq.heapify(heap)
-    alive = np.ones(len(points), dtype=bool)
-    left = len(points)
-    while left > count:
-        value, index = heapq.heappop(heap)
-        if not alive[index] or -value != load[index]:
-            continue
-        alive[index] = False
-        left -= 1
-        for place in range(start[index], start[index + 1]):
-            other = neighbour[place]
-            if alive[other]:
-                load[other] -= share[place]
-                heapq.heappush(heap, (-load[other], other))
-    return np.flatnonzero(alive)
+    one, two = tree.query_pairs(reach, output_type="ndarray").T
+    distance = np.linalg.norm(points[one] - points[two], axis=1)
+    return _eliminate(one, two, (1.0 - distance / reach) ** _ALPHA, len(points), count)
+
+
+def _eliminate(one: IntArray, two: IntArray, share: FloatArray, total: int, count: int) -> IntArray:
+    """Return which points are left if the one with the largest load goes first, again and again.
+
+    A point whose load is above that of all its neighbours goes before any of them, whatever happens
+    elsewhere, since loads only fall. So all such points go in one round, with the loads that they
+    would have in turn. These fall from one to the next, so those that were to go first are those
+    with the largest; once enough of them are above every load that is left, all is decided.
+
+    Parameters
+    ----------
+    one, two : (M,) int64
+        The pairs of neighbours.
+    share : (M,) float64
+        What each of a pair adds to the load of the other.
+    total, count
+        Number of points, and of those to be left.
+    """
+    load = np.bincount(one, share, total) + np.bincount(two, share, total)
+    alive = np.ones(total, dtype=bool)
+    last = np.full(total, -np.inf)
+    while (last > load[alive].max(initial=-np.inf)).sum() < total - count:
+        higher = (load[one] > load[two]) | ((load[one] == load[two]) & (one < two))
+        highest = alive.copy()
+        highest[np.where(higher, two, one)] = False
+        last[highest] = load[highest]
+        alive &= ~highest
+        first, second = highest[one], highest[two]
+        load -= np.bincount(two[first], share[first], total)
+        load -= np.bincount(one[second], share[second], total)
+        kept = ~(first | second)
+        one, two, share = one[kept], two[kept], share[kept]
+    left = np.ones(total, dtype=bool)
+    left[np.argsort(-last, kind="stable")[: total - count]] = False
+    return np.flatnonzero(left)
