@@ -83,6 +83,10 @@ def cone(
         data = {"orders": {str(k): order_report(pairs, rounded=True) for k, pairs in found.items()}}
         typer.echo(json.dumps(data, indent=2))
         return
+    if prediction.cone.is_plane:
+        typer.echo(
+            "The cone is a plane: its creases have no angle, so every order above 1 vanishes."
+        )
     for pairs in found.values():
         print_order(pairs, digits, rounded=True)
 

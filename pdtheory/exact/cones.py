@@ -19,6 +19,7 @@ import sympy as sp
 
 from pdtheory.errors import InputError
 from pdtheory.exact.coefficients import exact
+from pdtheory.exact.zeros import is_zero
 
 #: Cosine and sine of an angle in degrees.
 CosSin = Callable[[Any], tuple[Any, Any]]
@@ -127,6 +128,11 @@ class Cone:
     @cached_property
     def _plain_jumps(self) -> list[Any]:
         return self._jumps(_plain_cos_sin)
+
+    @property
+    def is_plane(self) -> bool:
+        """True if no ray is a crease."""
+        return all(is_zero(jump) for jump in self._plain_jumps)
 
     def jump_sum(self, n: int) -> tuple[Any, Any]:
         """Return 2 pi (1 - n^2) h_n = sum_j J_j exp(-i n a_j) by its parts, nothing simplified.

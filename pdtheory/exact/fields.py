@@ -21,6 +21,7 @@ from sympy.polys.rings import ring
 
 from pdtheory.exact.coefficients import tidy
 from pdtheory.exact.faces import BinaryForm
+from pdtheory.exact.numberfield import in_number_field
 from pdtheory.exact.powerseries import Series
 from pdtheory.exact.separation import (
     MOST_SQUARE_ROOTS,
@@ -63,7 +64,7 @@ class Field:
         self._names = {a: a if a.is_Symbol else sp.Dummy() for a in atoms}
         self._meaning = {name: a for a, name in self._names.items()}
         parts = [*self._algebraic_parts(listed, into_quotients=self.divides), sp.Integer(1)]
-        ground, elements = sp.construct_domain(parts, extension=True, field=True)
+        ground, elements = in_number_field(parts)
         symbols = [*self._names.values()]
         if self.divides:
             self.domain = ground.frac_field(*symbols) if symbols else ground

@@ -17,6 +17,7 @@ from typing import Any, Final
 
 import sympy as sp
 
+from pdtheory.exact.numberfield import in_number_field
 from pdtheory.exact.separation import extent, is_known_algebraic
 from pdtheory.exact.zeros import is_zero
 
@@ -113,7 +114,7 @@ class Independent:
         """Name the generator of a number field; return numbers as polynomials in it."""
         if not algebraic:
             return {}
-        ground, elements = sp.construct_domain(algebraic, extension=True, field=True)
+        ground, elements = in_number_field(algebraic)
         if ground.is_QQ:
             return {a: [e] for a, e in zip(algebraic, elements, strict=True)}
         symbol = self._symbol(ground.ext.as_expr())

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cmp_to_key
 from itertools import pairwise
-from math import factorial
+from math import factorial, prod
 from typing import Any
 
 import sympy as sp
@@ -149,11 +149,41 @@ def _refuse_even(order: int, angles: tuple[Any, ...]) -> str | None:
 
 
 def _odd_row(order: int, angles: tuple[Any, ...]) -> WavejetsRow:
-    lines = _through([_unit(a) for a in angles])
-    form = _times_circle(lines, order)
-    row = _integrate(form)
-    # f or -f: at the first angle g'' must be negative, that is F must fall.
-    return row if _slope(form, _unit(angles[0])) < 0 else -row
+    """Integrate F = +-prod sin(theta - a_j), which on the circle needs no factor x^2 + y^2."""
+    # F falls at the first angle, which is below the others.
+    falling = prod((-sign(b - angles[0] - 180) for b in angles[1:]), start=-1)
+    falling *= (-1) ** (len(angles) - 1)
+    row = WavejetsRow(order, {})
+    for n, turns in _product_of_sines(angles).items():
+        if n > 0:
+            # (2 i)^-m times the sum of c exp(-i b), over i n: m + 1 is even.
+            scale = sp.Rational(falling * (-1) ** ((len(angles) + 1) // 2), 2 ** len(angles) * n)
+            waves = [(c, sp.pi * b / 180) for b, c in turns.items()]
+            row.parts[n] = (
+                scale * sp.Add(*(c * sp.cos(b) for c, b in waves)),
+                scale * sp.Add(*(-c * sp.sin(b) for c, b in waves)),
+            )
+    return row
+
+
+def _product_of_sines(angles: Sequence[Any]) -> dict[int, dict[Any, int]]:
+    """Return (2 i)^m prod sin(theta - a_j) = sum_n exp(i n theta) sum_b c exp(-i b).
+
+    Returns
+    -------
+    dict
+        By n the integer coefficients c by b, in degrees.
+    """
+    total: dict[int, dict[Any, int]] = {0: {sp.Integer(0): 1}}
+    for a in angles:
+        longer: dict[int, dict[Any, int]] = {}
+        for n, turns in total.items():
+            for b, c in turns.items():
+                for step in (1, -1):
+                    row, turned = longer.setdefault(n + step, {}), (b + step * a) % 360
+                    row[turned] = row.get(turned, 0) + step * c
+        total = longer
+    return {n: {b: c for b, c in turns.items() if c} for n, turns in total.items()}
 
 
 def _even_row(order: int, angles: tuple[Any, ...]) -> WavejetsRow:

@@ -20,6 +20,7 @@ from pdtheory.exact.balls import engine, horner
 from pdtheory.exact.enclosing import enclose, enclose_real, real_balls
 from pdtheory.exact.independent import Independent
 from pdtheory.exact.intervals import Enclosure
+from pdtheory.exact.numberfield import in_number_field
 from pdtheory.exact.separation import extent, is_known_algebraic
 from pdtheory.exact.zeros import is_zero, sign, size_of
 
@@ -102,8 +103,7 @@ class Coefficients:
     @cached_property
     def field_elements(self) -> tuple[Any, list[Any]]:
         """The field Q(a) and the numbers over the factor as elements of it."""
-        field, elements = sp.construct_domain(self.algebraic, extension=True, field=True)
-        return field, elements
+        return in_number_field(self.algebraic)
 
     @cached_property
     def polynomial(self) -> Any:

@@ -120,6 +120,11 @@ def test_cone():
     assert "Order 3" in run("cone", "t-junction", "--orders", "3", "--degree", "5")
 
 
+def test_a_flat_cone_says_why_nothing_is_listed():
+    assert "The cone is a plane" in run("cone", "ridge", "--slope", "0", "--orders", "2:3")
+    assert "The cone is a plane" not in run("cone", "ridge", "--orders", "2")
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
