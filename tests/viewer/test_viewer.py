@@ -13,8 +13,9 @@ from pdtheory.conventions import order_colour
 from pdtheory.drawing.choice import Choice, check_choice
 from pdtheory.errors import ComputationError, InputError, MissingDependencyError
 from pdtheory.pointset import DirectionField, PointCloud, estimate_directions
+from pdtheory.viewer.scene import FieldView
 from pdtheory.viewer.strokes import Strokes, cells, discs
-from pdtheory.viewer.window import FieldView, _view, view_field, widget
+from pdtheory.viewer.window import _view, view_field, widget
 from tests.pointset.surfaces import torus
 
 needs_pyvista = pytest.mark.skipif(
