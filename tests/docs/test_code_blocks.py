@@ -26,6 +26,8 @@ PAGES = sorted([*GUIDES, *DOCS.glob("*.md"), *DOCS.glob("howto/*.md")])
 
 _FENCE = re.compile(r"^( *)```([^\n`]*)\n(.*?)^\1```$", re.MULTILINE | re.DOTALL)
 
+_INCLUDE = re.compile(r"^```\{include\} (\S+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+
 #: Commands that other tests run, because they take minutes or need more than a folder.
 ELSEWHERE = {
     "pdtheory addon": "tests/blender/test_packaging.py",
@@ -144,3 +146,12 @@ def test_links_between_pages_lead_somewhere():
             # The gallery exists once the documentation has been built.
             if not target.startswith("auto_examples/"):
                 assert (page.parent / target).exists(), f"{page.name}: {target}"
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_what_a_page_includes_is_there(page: Path) -> None:
+    """The site builds elsewhere; a part that another page includes must keep its first words."""
+    for name, options in _INCLUDE.findall(page.read_text(encoding="utf-8")):
+        text = (page.parent / name).read_text(encoding="utf-8")
+        for mark in re.findall(r'^:(?:start-after|end-before): "?(.*?)"?$', options, re.MULTILINE):
+            assert mark in text, f"{page.name} includes {name} from or to {mark!r}"
