@@ -24,6 +24,9 @@ from pdtheory.exact.zeros import is_zero
 #: Largest degree of a number field that is kept as one; beyond it roots are taken for independent.
 MOST_DEGREE: Final = 8
 
+#: Largest power of an exponential, or multiple of an angle, that is written as one.
+MOST_POWER: Final = 48
+
 _CIRCULAR = (sp.sin, sp.cos, sp.tan, sp.cot)
 _HYPERBOLIC = (sp.sinh, sp.cosh, sp.tanh, sp.coth)
 
@@ -58,8 +61,13 @@ class Independent:
         algebraic = [*dict.fromkeys(a for c in listed for a in _algebraic_parts(c))]
         self._has_field = extent(algebraic).degree <= MOST_DEGREE
         self._visited: set[Any] = set()
+        self._largest: dict[tuple[bool, Any], Any] = {}
         for constant in listed:
             self._collect(constant)
+        wild = {key for key, q in self._shares.items() if q * self._largest[key] > MOST_POWER}
+        self._shares = {key: q for key, q in self._shares.items() if key not in wild}
+        for node in [n for n in self._visited if _is_elementary(n) and not self._is_rewritten(n)]:
+            self._symbol(node)
         for circular, basic in self._shares:
             self._symbol(self._basic(circular, basic))
         coordinates = self._adjoin(algebraic) if self._has_field else {}
@@ -142,6 +150,7 @@ class Independent:
             for multiple, basic in _terms(_argument(node)):
                 key = circular, basic
                 self._shares[key] = lcm(self._shares.get(key, 1), int(multiple.q))
+                self._largest[key] = max(self._largest.get(key, 0), abs(multiple))
         elif _is_plain(node):
             for part in node.args:
                 self._collect(part)
@@ -153,6 +162,13 @@ class Independent:
             self._symbols[number] = sp.Dummy()
             self.meaning[self._symbols[number]] = number
         return self._symbols[number]
+
+    def _is_rewritten(self, node: Any) -> bool:
+        """Return whether a number is a short power of what is named, or a short multiple."""
+        circular = isinstance(node, _CIRCULAR)
+        return _is_elementary(node) and all(
+            (circular, basic) in self._shares for _, basic in _terms(_argument(node))
+        )
 
     def _basic(self, circular: bool, basic: Any) -> Any:
         share = self._shares[circular, basic]
@@ -166,7 +182,7 @@ class Independent:
     def _new(self, node: Any) -> Any:
         if node.is_Rational:
             return self.field.convert_from(sp.QQ(int(node.p), int(node.q)), sp.QQ)
-        if _is_elementary(node):
+        if self._is_rewritten(node):
             if isinstance(node, _CIRCULAR):
                 return self._circular(node)
             return self._exponential(node)

@@ -52,6 +52,12 @@ def test_expansion_at_a_point_of_constants(formula):
     assert r"\begin{array}" in run("eigen", formula, "--at", "1,1", "--order", "2", "--latex")
 
 
+def test_exponents_with_large_denominators():
+    f = "exp(-16*y**2) + exp(-16*x**2)*tanh(4*y)"
+    order = load("eigen", f, "--at", "617/5000,1/4", "--order", "4")["orders"]["4"]
+    assert len(order["pairs"]) in (4, 8)
+
+
 def test_implicit_surface_at_a_point_of_constants():
     at = ["--implicit", "cosh(x)*y - exp(z)", "--at", "1,2,log(2*cosh(1))", "--order", "3"]
     assert len(load("eigen", *at)["orders"]["3"]["pairs"]) in (2, 4, 6)
