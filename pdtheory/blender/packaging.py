@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import os
 import shutil
 import subprocess
 import sys
 import tempfile
-import zipfile
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
@@ -147,14 +144,16 @@ def build_zip(runtime: Runtime, platform: str, folder: Path) -> Path:
         wheels = stage / "wheels"
         wheels.mkdir()
         pip = _pip()
-        _run(*pip, "wheel", "--quiet", "--no-deps", "--wheel-dir", str(wheels), str(root))
+        run_tool(*pip, "wheel", "--quiet", "--no-deps", "--wheel-dir", str(wheels), str(root))
         _download(pip, runtime, platform, wheels)
         version = _complete_manifest(stage, runtime, platform)
         target = folder / f"principal_directions-{version}-{runtime.tag}-{platform}.zip"
         built = Path(scratch) / target.name
         blender_tool = (sys.executable, str(tool))
-        _run(*blender_tool, "build", "--source-dir", str(stage), "--output-filepath", str(built))
-        _run(*blender_tool, "validate", str(built))
+        run_tool(
+            *blender_tool, "build", "--source-dir", str(stage), "--output-filepath", str(built)
+        )
+        run_tool(*blender_tool, "validate", str(built))
         shutil.move(built, target)
     return target
 
@@ -165,7 +164,7 @@ def _download(pip: Sequence[str], runtime: Runtime, platform: str, folder: Path)
     tags += [f"--abi={abi}" for abi in (runtime.tag, "abi3", "none")]
     tags += [f"--python-version={runtime.python}", "--implementation=cp"]
     wanted = (*_LIBRARIES, runtime.numpy)
-    _run(*pip, "download", "--quiet", "--only-binary=:all:", f"--dest={folder}", *tags, *wanted)
+    run_tool(*pip, "download", "--quiet", "--only-binary=:all:", f"--dest={folder}", *tags, *wanted)
     for wheel in folder.glob(f"{_NUMPY}-*.whl"):
         wheel.unlink()
 
@@ -225,7 +224,7 @@ def _pip() -> list[str]:
     raise MissingDependencyError("gathering the wheels needs pip or uv; install one of them.")
 
 
-def _run(*command: str) -> str:
+def run_tool(*command: str) -> str:
     """Run a tool and return what it printed.
 
     Raises
@@ -244,89 +243,3 @@ def _run(*command: str) -> str:
             f"{said[-1].strip() if said else f'exit code {done.returncode}'}."
         )
     return done.stdout
-
-
-def find_blender(given: Path | None = None) -> Path:
-    """Find a Blender program.
-
-    Parameters
-    ----------
-    given
-        Use this one.
-
-    Raises
-    ------
-    InputError
-        If there is none.
-    """
-    if given is not None:
-        if not given.is_file():
-            raise InputError(f"no such program: {given}; give the path of Blender.")
-        return given.absolute()
-    for candidate in _candidates():
-        if candidate.is_file():
-            return candidate.absolute()
-    raise InputError("no Blender found; say where it is with --blender PATH.")
-
-
-def _candidates() -> Iterator[Path]:
-    for place in (os.environ.get("BLENDER"), shutil.which("blender")):
-        if place:
-            yield Path(place)
-    yield Path("/Applications/Blender.app/Contents/MacOS/Blender")
-    programs = os.environ.get("PROGRAMFILES")
-    if programs:
-        yield from sorted(
-            Path(programs).glob("Blender Foundation/Blender */blender.exe"), reverse=True
-        )
-
-
-def python_of(blender: Path) -> str:
-    """Return the Python version that a Blender carries.
-
-    Raises
-    ------
-    ComputationError
-        If it does not start.
-    """
-    mark = "pdtheory-python:"
-    code = f"import sys; print('{mark}%d.%d' % sys.version_info[:2])"
-    said = _run(str(blender), "--background", "--factory-startup", "--python-expr", code)
-    for line in said.splitlines():
-        if line.startswith(mark):
-            return line[len(mark) :].strip()
-    raise ComputationError(f"{blender} did not say which Python it carries; is it Blender 4.2+?")
-
-
-def install_zip(blender: Path, package: Path) -> None:
-    """Install a zip into a Blender and switch it on.
-
-    Raises
-    ------
-    InputError
-        If the file is no zip of the extension.
-    ComputationError
-        If Blender refuses it.
-    """
-    with _opened(package) as archive:
-        if "blender_manifest.toml" not in archive.namelist():
-            raise InputError(f"{package} is no Blender extension; build one with addon build.")
-    extension = (str(blender), "--command", "extension")
-    said = _run(
-        *extension, "install-file", "--repo", "user_default", "--enable", str(package.resolve())
-    )
-    # Blender ends well, too, where it refuses a zip for another version.
-    if "principal_directions [installed]" not in _run(*extension, "list"):
-        reason = next((line for line in said.splitlines() if "ERROR" in line), "it did not say why")
-        raise ComputationError(f"{blender} did not take {package.name}: {reason.strip()}.")
-
-
-@contextmanager
-def _opened(package: Path) -> Iterator[zipfile.ZipFile]:
-    try:
-        with zipfile.ZipFile(package) as archive:
-            yield archive
-    except FileNotFoundError as error:
-        raise InputError(f"no such file: {package}.") from error
-    except zipfile.BadZipFile as error:
-        raise InputError(f"{package} is no zip; build one with addon build.") from error

@@ -57,7 +57,8 @@ def install(
 
     Example: pdtheory addon install --blender ~/blender-5.2/blender
     """
-    from pdtheory.blender.packaging import find_blender, install_zip, python_of, runtime_for
+    from pdtheory.blender.installing import find_blender, install_zip, python_of
+    from pdtheory.blender.packaging import runtime_for
 
     program = find_blender(blender)
     if package is None:

@@ -162,7 +162,8 @@ def widget(
     plotter = pyvista.Plotter(notebook=True, off_screen=True, window_size=list(size))
     scene = FieldView(field, cloud, choice, _view(field, cloud, None, None, None), plotter)
     scene.add_controls()
-    # Drawn by the kernel, where the switches live; nothing is fetched from a network.
+    # Drawn by the kernel, where the switches live. PyVista may look for its renderer in the browser
+    # on the network as well; this does not need it.
     return plotter.show(jupyter_backend="server", return_viewer=True)
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from pdtheory.blender import packaging
+from pdtheory.blender import installing, packaging
 from pdtheory.errors import ComputationError, InputError, MissingDependencyError
 
 
@@ -33,8 +33,8 @@ def no_downloads(monkeypatch):
             return ""
         return real(*command)
 
-    real = packaging._run
-    monkeypatch.setattr(packaging, "_run", run)
+    real = packaging.run_tool
+    monkeypatch.setattr(packaging, "run_tool", run)
     monkeypatch.setattr(packaging, "_pip", lambda: ["pip"])
 
 
@@ -79,27 +79,27 @@ def test_without_tools_a_sentence_says_what_is_missing(monkeypatch):
 
 def test_a_tool_that_fails_is_a_sentence():
     with pytest.raises(ComputationError, match="no such thing"):
-        packaging._run(sys.executable, "-c", "import sys; sys.exit('no such thing')")
+        packaging.run_tool(sys.executable, "-c", "import sys; sys.exit('no such thing')")
 
 
 def test_blender_is_found_or_asked_for(tmp_path, monkeypatch):
     program = tmp_path / "blender"
     program.write_text("")
-    assert packaging.find_blender(program) == program
+    assert installing.find_blender(program) == program
     monkeypatch.setenv("BLENDER", str(program))
-    assert packaging.find_blender() == program
+    assert installing.find_blender() == program
     with pytest.raises(InputError, match="no such program"):
-        packaging.find_blender(tmp_path / "missing")
+        installing.find_blender(tmp_path / "missing")
     # A program is started by its path, not searched for by its bare name.
     monkeypatch.chdir(tmp_path)
-    assert packaging.find_blender(Path("blender")) == program
+    assert installing.find_blender(Path("blender")) == program
 
 
 def test_a_program_that_does_not_start_is_a_sentence(tmp_path):
     program = tmp_path / "blender"
     program.write_text("")
     with pytest.raises(ComputationError, match="blender does not start"):
-        packaging.python_of(program)
+        installing.python_of(program)
 
 
 @pytest.mark.parametrize(("content", "message"), [(None, "no such file"), (b"x", "is no zip")])
@@ -108,7 +108,7 @@ def test_what_is_no_extension_is_not_installed(tmp_path, content, message):
     if content is not None:
         package.write_bytes(content)
     with pytest.raises(InputError, match=message):
-        packaging.install_zip(tmp_path / "blender", package)
+        installing.install_zip(tmp_path / "blender", package)
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="the stand-in for Blender is a shell script")
@@ -120,15 +120,15 @@ def test_a_zip_that_blender_refuses_is_a_sentence(tmp_path):
     program.write_text("#!/bin/sh\n[ $3 = list ] || echo 'ERROR: needs version 5.1.0'\n")
     program.chmod(0o755)
     with pytest.raises(ComputationError, match="ERROR: needs version 5"):
-        packaging.install_zip(program, package)
+        installing.install_zip(program, package)
 
 
 def test_installing_without_a_zip_says_how_to_build_one(tmp_path, monkeypatch):
     from pdtheory.cli.addon import app
 
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(packaging, "find_blender", lambda given: tmp_path / "blender")
-    monkeypatch.setattr(packaging, "python_of", lambda program: "3.13")
+    monkeypatch.setattr(installing, "find_blender", lambda given: tmp_path / "blender")
+    monkeypatch.setattr(installing, "python_of", lambda program: "3.13")
     result = CliRunner().invoke(app, ["install"])
     assert isinstance(result.exception, InputError)
     assert "addon build" in str(result.exception)
