@@ -7,7 +7,6 @@ from copy import copy
 from typing import Any
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from pdtheory.conventions import wavejets_table
 from pdtheory.pointset.cloud import FloatArray, IntArray
@@ -21,6 +20,7 @@ from pdtheory.pointset.kernels.results import Output, make_directions, make_jets
 from pdtheory.pointset.kernels.tables import WORKSPACE, aligned, make_record, make_tables
 from pdtheory.pointset.neighbourhoods import Choice, nearest, refuse_crowd
 from pdtheory.pointset.pool import Flag
+from pdtheory.pointset.trees import kd_tree
 
 #: Points are collected this many radii around when the weights depend on the planar distance: the
 #: face of a cube corner rises by sqrt(2) over the plane of the corner, so sqrt(3) radii see it all.
@@ -88,7 +88,7 @@ class Engine:
         self._grid, order = build_grid(points, size)
         self._tree: Any = None
         if choice.radius is None:
-            self._tree = cKDTree(points[order])
+            self._tree = kd_tree(points[order])
         else:
             refuse_crowd(int(np.diff(self._grid.starts).max()), choice)
         self._valid = np.isfinite(queries).all(axis=1)
@@ -141,6 +141,7 @@ class Engine:
                 self._reach,
                 self._rounding,
                 self.settings,
+                self.settings.robust or None,
                 tables,
                 workspace,
                 aligned(CLOUD_ROWS, capacity),

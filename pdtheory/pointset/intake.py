@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from scipy.spatial import cKDTree
 
 from pdtheory.errors import InputError
 from pdtheory.pointset.cloud import FloatArray, IntArray, PointCloud
 from pdtheory.pointset.orientation import consistent_normals, winding_normals
+from pdtheory.pointset.trees import kd_tree
 
 #: Extents outside these bounds would overflow in the units of high orders.
 SMALLEST, LARGEST = 1e-20, 1e20
@@ -229,5 +229,5 @@ def _resolve_queries(queries: npt.ArrayLike, places: FloatArray) -> tuple[FloatA
 
 def _nearest_index(points: FloatArray, numbers: Any, wanted: FloatArray) -> Any:
     """Return the number of the nearest finite point of each query."""
-    _, nearest = cKDTree(points).query(np.where(np.isfinite(wanted), wanted, 0.0))
+    _, nearest = kd_tree(points).query(np.where(np.isfinite(wanted), wanted, 0.0))
     return numbers[nearest]

@@ -6,10 +6,10 @@ from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from pdtheory.errors import InputError
 from pdtheory.pointset.cloud import FloatArray
+from pdtheory.pointset.trees import kd_tree
 
 #: Most neighbours of one point.
 MAX_NEIGHBOURS = 100_000
@@ -152,7 +152,7 @@ def nearest(tree: Any, queries: FloatArray, count: int) -> tuple[FloatArray, Any
 def _median_radii(points: FloatArray, counts: Sequence[int]) -> list[float]:
     """Return the radii that hold so many points at half of the points, from a sample of these."""
     sample = points[:: max(1, len(points) // 1000)]
-    distances, _ = cKDTree(points).query(sample, k=list(counts))
+    distances, _ = kd_tree(points).query(sample, k=list(counts))
     return [float(value) for value in np.median(distances, axis=0)]
 
 

@@ -5,12 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from scipy.sparse import csr_matrix
-from scipy.sparse.csgraph import breadth_first_order, connected_components, minimum_spanning_tree
-from scipy.spatial import cKDTree
 
 from pdtheory.pointset.cloud import FloatArray, IntArray
 from pdtheory.pointset.kernels.signs import hand_on
+from pdtheory.pointset.trees import kd_tree
 
 #: Neighbours that every point is joined with.
 NEIGHBOURS = 10
@@ -48,6 +46,9 @@ def consistent_normals(points: FloatArray) -> FloatArray:
     points : (P, 3) float64
         Finite positions.
     """
+    from scipy.sparse import csr_matrix
+    from scipy.sparse.csgraph import breadth_first_order, minimum_spanning_tree
+
     count = len(points)
     nearest, normals = _planes(points, min(NEIGHBOURS + 1, count))
     rows = np.repeat(np.arange(count), nearest.shape[1])
@@ -77,7 +78,7 @@ def _planes(points: FloatArray, size: int) -> tuple[IntArray, FloatArray]:
 
     In batches, between which an interrupt is seen.
     """
-    tree = cKDTree(points)
+    tree = kd_tree(points)
     nearest = np.empty((len(points), size), np.int64)
     normals = np.empty_like(points)
     for start in range(0, len(points), _BATCH):
@@ -93,6 +94,8 @@ def _planes(points: FloatArray, size: int) -> tuple[IntArray, FloatArray]:
 
 def _starts(points: FloatArray, normals: FloatArray, graph: Any) -> tuple[IntArray, FloatArray]:
     """Return the outermost point of each connected part, and the outward part of its normal."""
+    from scipy.sparse.csgraph import connected_components
+
     parts, label = connected_components(graph, directed=False)
     size = np.bincount(label)
     middle = np.column_stack(

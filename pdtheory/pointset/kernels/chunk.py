@@ -9,7 +9,7 @@ import numpy as np
 from pdtheory.conventions import Status
 from pdtheory.pointset.kernels.fit import FRAME_TANGENT, OUTSIDE, Fit, Settings, finish, fit_point
 from pdtheory.pointset.kernels.frames import output_frame
-from pdtheory.pointset.kernels.grid import COLUMNS, Grid, find_runs, gather, gather_listed, locate
+from pdtheory.pointset.kernels.grid import Grid, find_runs, gather, gather_listed, locate
 from pdtheory.pointset.kernels.jit import Array, IntArray, inner, kernel
 from pdtheory.pointset.kernels.lanes import LANES, Lanes, Rows, emit
 from pdtheory.pointset.kernels.moments import SQUARED
@@ -109,13 +109,14 @@ def _write_covariances(
     fit: Fit,
     orders: IntArray,
     settings: Settings,
+    robust: Any,
     tables: Any,
     w: Any,
     out: Array,
 ) -> float:
     """Write the covariances of all orders up to the degree used; returns the noise."""
     tangent = settings.frame == FRAME_TANGENT
-    noise = prepare_covariances(cloud, n, fit, settings.robust, tangent, w)
+    noise = prepare_covariances(cloud, n, fit, robust, tangent, w)
     if tangent:
         spread_order(1, fit, tables, w)
         for axis in range(2):
@@ -145,6 +146,7 @@ def fit_chunk(
     reach: float,
     coordinate_rounding: float,
     settings: Settings,
+    robust: Any,
     tables: Any,
     w: Any,
     cloud: Array,
@@ -176,6 +178,8 @@ def fit_chunk(
         Rounding error of the coordinates.
     settings : Settings
         What is asked for.
+    robust : bool or None
+        Not None for l1; with None that is not even compiled.
     tables, w : records of TABLES and WORKSPACE
         Constants and working memory.
     cloud : (CLOUD_ROWS, capacity) float64
@@ -193,9 +197,10 @@ def fit_chunk(
         Points done; if there are more and `stop` is not set, minus the capacity that the next one
         needs.
     """
-    runs = np.empty((COLUMNS, 2), dtype=np.int64)
-    last = np.array([-(2**60), 0, 0], dtype=np.int64)
-    here = np.empty(3, dtype=np.int64)
+    runs = w.runs
+    last = w.cells[0]
+    here = w.cells[1]
+    last[0] = -(2**60)
     count = total = 0
     tangent = settings.frame == FRAME_TANGENT
     for q in range(begin, len(queries)):
@@ -231,8 +236,10 @@ def fit_chunk(
             cloud[SQUARED, n] = OUTSIDE
             n += 1
         fit = fit_point(cloud, points, n, references[q], settings, w)
-        if settings.robust and not fit.status & _UNANSWERED:
-            fit = fit_robustly(cloud, n, fit, w)
+        # Numba leaves out a branch on None only if nothing else is asked with it.
+        if robust is not None:  # noqa: SIM102
+            if not fit.status & _UNANSWERED:
+                fit = fit_robustly(cloud, n, fit, w)
         out.neighbours[q] = fit.neighbours
         if fit.status & _UNANSWERED:
             out.status[q] = fit.status
@@ -251,7 +258,7 @@ def fit_chunk(
                 out.blur[q, j] = _blur(fit, orders[j], level, w)
         if settings.uncertainty:
             noise = _write_covariances(
-                cloud, n, fit, orders, settings, tables, w, out.covariance[q]
+                cloud, n, fit, orders, settings, robust, tables, w, out.covariance[q]
             )
             out.noise[q] = noise * radius
     return len(queries)

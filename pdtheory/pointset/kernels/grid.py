@@ -12,11 +12,7 @@ import numpy as np
 
 from pdtheory.pointset.kernels.jit import Array, IntArray, inner
 from pdtheory.pointset.kernels.lanes import LANES, Lanes, Rows, emit
-
-#: Cells on each side of the own one that a ball can touch: the cell is at least half a radius.
-REACH = 2
-#: Columns of cells that a ball can touch.
-COLUMNS = (2 * REACH + 1) ** 2
+from pdtheory.pointset.kernels.tables import REACH
 
 
 class Grid(NamedTuple):

@@ -11,6 +11,8 @@ import numba
 import numpy as np
 import numpy.typing as npt
 
+from pdtheory.pointset.kernels.linking import Part, Whole, compile_as
+
 Array = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int64]
 F = TypeVar("F", bound=Callable[..., Any])
@@ -46,12 +48,13 @@ def kernel(function: F) -> F:
     cannot be written to; where neither can be, the code is compiled anew in each process. A kernel
     calls kernels of other modules, so its cache is tied to the sources of all of them.
     """
-    return _compile(function)
+    return compile_as(Whole, _compile(function))
 
 
 def inner(function: F) -> F:
     """Compile a function that only kernels call, without the wrappers that Python would need."""
-    return _compile(function, no_cpython_wrapper=True, no_cfunc_wrapper=True, cache=False)
+    part = _compile(function, no_cpython_wrapper=True, no_cfunc_wrapper=True, cache=False)
+    return compile_as(Part, part)
 
 
 def steady(function: F) -> F:
@@ -61,6 +64,7 @@ def steady(function: F) -> F:
     where it is called, and Numba links one or the other: the process that compiles would differ in
     the last bit from those that load the code, and a resumed run from one in a single go.
     """
-    return _compile(
+    part = _compile(
         function, fastmath=False, no_cpython_wrapper=True, no_cfunc_wrapper=True, cache=False
     )
+    return compile_as(Part, part)

@@ -19,6 +19,7 @@ from pdtheory.pointset.kernels.tables import SAMPLES
 
 #: Largest number of halvings; below that width two zeros count as a double one.
 DEPTH = 18
+_FINEST = pi / SAMPLES * 2.0**-DEPTH
 #: Most rounds of Newton steps and bisections, and the step at which they end: the next one would be
 #: h'' / (2 h') times its square, less than what rounding of h does to the angle.
 ROUNDS, LAST_STEP = 100, 1e-10
@@ -162,7 +163,6 @@ def bracket_angles(
     if third == 0.0:
         return 0
     width = np.pi / SAMPLES
-    finest = width * 2.0 ** (-DEPTH)
     clear = third * width * width / 8.0
     certain = fourth * width * width / 8.0
     _sample(re, im, order, cosines, sines, samples)
@@ -213,7 +213,7 @@ def bracket_angles(
             if not change and min(abs(ha), abs(hb)) > third * d * d / 8.0:
                 continue
             monotone = da * db > 0.0 and min(abs(da), abs(db)) > fourth * d * d / 8.0
-            if not monotone and d > finest:
+            if not monotone and d > _FINEST:
                 middle = 0.5 * (low + high)
                 hm, dm = evaluate(re, im, order, middle)
                 stack[top + 1, 0] = middle
@@ -232,7 +232,7 @@ def bracket_angles(
                 continue
             if not change and monotone:
                 continue
-            merge = found > begin and low - table[HIGH, found - 1] < 3.0 * finest
+            merge = found > begin and low - table[HIGH, found - 1] < 3.0 * _FINEST
             if merge and not monotone:
                 # The same multiple zero, seen from the next interval.
                 if change:

@@ -21,12 +21,16 @@ SAMPLES = 64
 SIDE = 16
 
 
+#: Cells on each side of the own one that a ball can touch: the cell is at least half a radius.
+REACH = 2
+#: Columns of cells that a ball can touch.
+COLUMNS = (2 * REACH + 1) ** 2
 #: Largest degree, for which all memory is laid out.
 MAX_DEGREE = 14
 _COUNT = (MAX_DEGREE + 1) * (MAX_DEGREE + 2) // 2
 _ROWS, _COLUMNS = padded_rows(_COUNT) + 2, padded_columns(_COUNT)
 _LINE = 64  # bytes of a cache line, where vectors begin best
-_INTEGERS = ("intervals",)  # the arrays of integers among those of numbers
+_INTEGERS = ("intervals", "runs", "cells")  # the arrays of integers among those of numbers
 
 
 def layout(**shapes: tuple[int, ...]) -> np.dtype[Any]:
@@ -107,6 +111,8 @@ WORKSPACE = layout(
     turns=(4, SIDE // 2),
     planar=(2, SIDE * (SIDE + 2) // 4 + LANES),
     gradient=(2, _COLUMNS),
+    runs=(COLUMNS, 2),
+    cells=(2, 3),
 )
 
 

@@ -29,6 +29,9 @@ from pdtheory.pointset.kernels.regression import degree_start
 from pdtheory.pointset.kernels.tables import SIDE
 from pdtheory.pointset.kernels.tilting import add_product
 
+#: Halvings of an interval after which a number in it is known to rounding, if it is not 1e-4 of it.
+_HALVINGS = 64
+
 
 @emit
 def _solve_rows(
@@ -135,25 +138,41 @@ def _noise_of_l1(cloud: Array, n: int, used: int) -> float:
     """
     sizes = cloud[PRODUCT]
     inside = 0
+    high = 0.0
     for i in range(n):
         if cloud[WEIGHT, i] > 0.0:
             sizes[inside] = abs(cloud[RESIDUAL, i])
+            high = max(high, sizes[inside])
             inside += 1
     if inside <= used:
         return np.inf
-    ordered = np.sort(sizes[:inside])
-    return np.sqrt(np.pi / 2.0) * ordered[used + (inside - used) // 2] / 0.6744897501960817
+    # Halving finds the median to rounding; a sort of Numba takes seconds to compile.
+    rank = used + (inside - used) // 2
+    low = 0.0
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        below = 0
+        for i in range(inside):
+            below += int(sizes[i] <= middle)
+        if below > rank:
+            high = middle
+        else:
+            low = middle
+    return np.sqrt(np.pi / 2.0) * high / 0.6744897501960817
 
 
 @steady
 def prepare_covariances(
-    cloud: Array, n: int, fit: Fit, robust: bool, tangent: bool, w: Any
+    cloud: Array, n: int, fit: Fit, robust: Any, tangent: bool, w: Any
 ) -> float:
-    """Set up ``w.X`` and the gradient for `order_covariance`; returns the noise of the heights."""
+    """Set up ``w.X`` and the gradient for `order_covariance`; returns the noise of the heights.
+
+    `robust` is None for l2.
+    """
     top = fit.top
     first = degree_start(top, fit.degree)
     count = degree_start(top, 0)
-    if robust:
+    if robust is not None:
         # The covariance of an l1 fit holds the Gram matrix of the weights before reweighting.
         sum_products(cloud, WEIGHT, n, 2 * top, w.cubes, w.columns, w.sums)
         fill_gram(w.sums, w.heights, top, w.ordered, w.G)
@@ -191,7 +210,7 @@ def prepare_covariances(
     for i in range(n):
         total += cloud[WEIGHT, i]
         squares += cloud[WEIGHT, i] * cloud[RESIDUAL, i] * cloud[RESIDUAL, i]
-    if robust:
+    if robust is not None:
         return _noise_of_l1(cloud, n, count + 1 - first)
     left = total - used
     return np.sqrt(squares / left) if left > 0.0 else np.inf

@@ -1,0 +1,112 @@
+"""Inner functions compiled once, as parts of the kernels that call them.
+
+Numba optimizes and assembles every function by itself before it links it to its callers, where the
+same is done to it again, up the whole tree of calls: four fifths of the time of a compilation. Here
+the code of an inner function is only kept, to be linked to a kernel and optimized there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+from llvmlite.binding import Linkage
+from numba import types
+from numba.core.codegen import JITCodeLibrary
+from numba.core.registry import cpu_target
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+
+class _Unset:
+    """The code generator as an inner function sees it, which is no part of the process yet."""
+
+    def __init__(self, codegen: Any) -> None:
+        self._codegen = codegen
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._codegen, name)
+
+    def set_env(self, env_name: str, env: Any) -> None:
+        """Do nothing: only code that needs the interpreter has an environment."""
+
+
+class Part(JITCodeLibrary):
+    """Code that waits to be linked."""
+
+    @property
+    def codegen(self) -> Any:
+        """The code generator."""
+        return _Unset(self._codegen)
+
+    def add_llvm_module(self, ll_module: Any) -> None:
+        """Take the code of a function as it is."""
+        ll_module.data_layout = self._codegen._data_layout
+        self._final_module.link_in(ll_module)
+
+    def finalize(self) -> None:
+        """Let every kernel have a copy of the functions, for it to drop once they are inlined."""
+        self._raise_if_finalized()
+        for function in self._final_module.functions:
+            if not function.is_declaration and function.linkage == Linkage.external:
+                function.linkage = "linkonce_odr"
+        self._finalized = True
+
+    def get_pointer_to_function(self, name: str) -> int:
+        """There is none."""
+        return 0
+
+    def _get_module_for_linking(self) -> Any:
+        # A function of others needs all of it: Numba shares what it compiles, such as `min`.
+        if self._shared_module is None:
+            for library in self._linking_libraries:
+                self._final_module.link_in(library._get_module_for_linking(), preserve=True)
+        return super()._get_module_for_linking()
+
+
+class Whole(JITCodeLibrary):
+    """Code of a kernel, with all its parts."""
+
+    _linking_libraries: list[Any]
+
+    def finalize(self) -> None:
+        """Link the parts and make machine code of the whole."""
+        found: dict[Any, None] = {}
+        waiting: list[Any] = list(self._linking_libraries)
+        while waiting:
+            library = waiting.pop()
+            if library not in found:
+                found[library] = None
+                if isinstance(library, Part):
+                    waiting += library._linking_libraries
+        for library in found:
+            if isinstance(library, Part):
+                self._reload_init.update(library._reload_init)
+                self._final_module.link_in(library._final_module, preserve=True)
+        self._linking_libraries = [one for one in found if not isinstance(one, Part)]
+        super().finalize()
+
+
+def compile_as(kind: type[JITCodeLibrary], function: F) -> F:
+    """Let a compiled function be a part of those that call it, or the whole.
+
+    It is compiled once for all values of an argument, also where a call gives a constant.
+    """
+    compiled: Any = function
+    compile_it, find_template = compiled.compile, compiled.get_call_template
+    codegen = cpu_target.target_context.codegen()
+
+    def compile_kind(signature: Any) -> Any:
+        before = codegen._library_class
+        codegen._library_class = kind
+        try:
+            return compile_it(signature)
+        finally:
+            codegen._library_class = before
+
+    def find_plain(arguments: Any, keywords: Any) -> Any:
+        plain = {name: types.unliteral(kind) for name, kind in keywords.items()}
+        return find_template([types.unliteral(kind) for kind in arguments], plain)
+
+    compiled.compile, compiled.get_call_template = compile_kind, find_plain
+    return function
