@@ -11,6 +11,15 @@ from pdtheory.pointset.field import DirectionField
 from pdtheory.pointset.kernels import results
 from pdtheory.pointset.kernels.results import Output
 
+#: Columns of numbers among those of the rows.
+_COLUMNS = {
+    "angle": results.ANGLE,
+    "eigenvalue": results.EIGENVALUE,
+    "strength": results.STRENGTH,
+    "angle_std": results.ANGLE_STD,
+    "eigenvalue_std": results.EIGENVALUE_STD,
+}
+
 
 class Collector:
     """Takes chunks in any order and makes a :class:`DirectionField` of them.
@@ -42,8 +51,7 @@ class Collector:
         self._phi = np.empty((size, len(self._table)), np.complex128)
         self._counts = np.empty((len(orders), size), np.int64)
         self._isotropic = np.empty((len(orders), size), np.bool_)
-        self._where: list[IntArray] = []
-        self._rows: list[list[FloatArray]] = [[] for _ in orders]
+        self._chunks: list[tuple[IntArray, FloatArray, IntArray]] = []
 
     def add(self, where: IntArray, radii: FloatArray, output: Output, base: IntArray) -> None:
         """Take the results for the queries `where`."""
@@ -58,37 +66,34 @@ class Collector:
         self._phi[where] = jets.phi
         self._counts[:, where] = found.counts
         self._isotropic[:, where] = found.isotropic
-        self._where.append(where)
-        for rows, first, count in zip(self._rows, base, found.counts.sum(axis=1), strict=True):
-            rows.append(found.rows[first : first + count].copy())
+        # The rows are not copied: what a chunk has not used of them takes no memory.
+        self._chunks.append((where, found.rows, base))
 
     def field(self) -> DirectionField:
-        """Return everything that was added as one field; the collector is empty afterwards."""
-        # Place of each query among the chunks.
-        place = np.empty(len(self._points), np.int64)
-        place[np.concatenate([*self._where, np.empty(0, np.int64)])] = np.arange(len(place))
+        """Return everything that was added as one field."""
         directions = {}
         for j, order in enumerate(self._orders):
             counts = self._counts[j]
             offsets = np.concatenate(([0], np.cumsum(counts))).astype(np.int64)
-            arrived = np.empty_like(counts)
-            arrived[place] = counts
-            first = (np.cumsum(arrived) - arrived)[place]
-            source = np.repeat(first - offsets[:-1], counts) + np.arange(int(offsets[-1]))
-            rows = np.concatenate([*self._rows[j], np.empty((0, results.COLUMNS))])
-            self._rows[j].clear()
-            rows = rows.take(source, axis=0)
+            total = int(offsets[-1])
+            columns = {name: np.empty(total) for name in _COLUMNS}
+            vector, kind = np.empty((total, 3)), np.empty(total, np.int8)
+            for where, rows, base in self._chunks:
+                here = counts[where]
+                last = np.cumsum(here)
+                target = np.repeat(offsets[where] - last + here, here) + np.arange(int(here.sum()))
+                rows = rows[base[j] : base[j] + len(target)]
+                for name, number in _COLUMNS.items():
+                    columns[name][target] = rows[:, number]
+                vector[target] = rows[:, results.VECTOR : results.VECTOR + 3]
+                kind[target] = rows[:, results.KIND]
             directions[int(order)] = OrderDirections(
                 order=int(order),
                 offsets=offsets,
-                angle=rows[:, results.ANGLE].copy(),
-                vector=rows[:, results.VECTOR : results.VECTOR + 3].copy(),
-                eigenvalue=rows[:, results.EIGENVALUE].copy(),
-                strength=rows[:, results.STRENGTH].copy(),
-                kind=rows[:, results.KIND].astype(np.int8),
-                angle_std=rows[:, results.ANGLE_STD].copy(),
-                eigenvalue_std=rows[:, results.EIGENVALUE_STD].copy(),
+                vector=vector,
+                kind=kind,
                 isotropic=self._isotropic[j],
+                **columns,
             )
         return DirectionField(
             points=self._points,
