@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cmp_to_key
 from itertools import pairwise
-from math import factorial, prod
+from math import prod
 from typing import Any
 
 import sympy as sp
 
+from pdtheory.conventions import frequencies
 from pdtheory.errors import InputError
 from pdtheory.exact.coefficients import check_order, exact
-from pdtheory.exact.faces import BinaryForm
 from pdtheory.exact.wavejets import WavejetsRow
-from pdtheory.exact.zeros import is_zero, sign
-
-Coefficients = list[Any]
+from pdtheory.exact.waves import Wave
+from pdtheory.exact.zeros import sign
 
 
 def _compare(a: Any, b: Any) -> int:
@@ -153,122 +152,34 @@ def _odd_row(order: int, angles: tuple[Any, ...]) -> WavejetsRow:
     # F falls at the first angle, which is below the others.
     falling = prod((-sign(b - angles[0] - 180) for b in angles[1:]), start=-1)
     falling *= (-1) ** (len(angles) - 1)
-    row = WavejetsRow(order, {})
-    for n, turns in _product_of_sines(angles).items():
-        if n > 0:
-            # (2 i)^-m times the sum of c exp(-i b), over i n: m + 1 is even.
-            scale = sp.Rational(falling * (-1) ** ((len(angles) + 1) // 2), 2 ** len(angles) * n)
-            waves = [(c, sp.pi * b / 180) for b, c in turns.items()]
-            row.parts[n] = (
-                scale * sp.Add(*(c * sp.cos(b) for c, b in waves)),
-                scale * sp.Add(*(-c * sp.sin(b) for c, b in waves)),
-            )
-    return row
-
-
-def _product_of_sines(angles: Sequence[Any]) -> dict[int, dict[Any, int]]:
-    """Return (2 i)^m prod sin(theta - a_j) = sum_n exp(i n theta) sum_b c exp(-i b).
-
-    Returns
-    -------
-    dict
-        By n the integer coefficients c by b, in degrees.
-    """
-    total: dict[int, dict[Any, int]] = {0: {sp.Integer(0): 1}}
-    for a in angles:
-        longer: dict[int, dict[Any, int]] = {}
-        for n, turns in total.items():
-            for b, c in turns.items():
-                for step in (1, -1):
-                    row, turned = longer.setdefault(n + step, {}), (b + step * a) % 360
-                    row[turned] = row.get(turned, 0) + step * c
-        total = longer
-    return {n: {b: c for b, c in turns.items() if c} for n, turns in total.items()}
+    sines = Wave.product_of_sines(angles)
+    return _integrate(sines, order, 90 * len(angles), sp.Rational(falling, 2 ** len(angles)))
 
 
 def _even_row(order: int, angles: tuple[Any, ...]) -> WavejetsRow:
-    """Build F = (maxima) (minima) (x^2+y^2)^j with mean zero.
+    """Return g = -P^2 without its mean, P = prod sin(theta - a_j) for m lines a_j.
 
-    Two choices of minima, just after and just before the maxima, give means of opposite sign; the
-    combination of both with mean zero still has one sign change in each gap, because a form of
-    degree m has no more than m zeros.
+    At the lines alone g is 0 and not negative. Its other critical points are the zeros of P': one
+    in each of the m gaps by Rolle, and a form of degree m has no more.
     """
-    ends = [_unit(a) for a in (*angles, angles[0] + 180)]
-    maxima = _through(ends[:-1])
-    if len(angles) == 1:
-        ((c, s),) = ends[:-1]
-        minima = _through([(-s, c)])
-    else:
-        minima = _minima(maxima, ends)
-    form = _times_circle(_multiply(maxima, minima), order)
-    row = _integrate(form)
-    return row if _slope(form, ends[0]) < 0 else -row
+    sines = Wave.product_of_sines(angles)
+    # The square of (2 i)^m is (-4)^m.
+    return _row(order, sines * sines, lambda n: -(sp.Rational(-1, 4) ** len(angles)))
 
 
-def _minima(maxima: Coefficients, ends: list[tuple[Any, Any]]) -> Coefficients:
-    share = sp.Rational(1, 8)
-    while True:
-        first, second = (
-            _through(
-                [
-                    ((1 - part) * a[0] + part * b[0], (1 - part) * a[1] + part * b[1])
-                    for a, b in pairwise(ends)
-                ]
-            )
-            for part in (share, 1 - share)
-        )
-        means = [_mean(_multiply(maxima, m)) for m in (first, second)]
-        if sign(means[0]) * sign(means[1]) < 0:
-            return [
-                sp.expand(means[1] * p - means[0] * q) for p, q in zip(first, second, strict=True)
-            ]
-        share /= 2
+def _integrate(derivative: Wave, order: int, turn: int, scale: Any = 1) -> WavejetsRow:
+    """Return the row with g' = scale exp(-i turn) F, turn in degrees, for F of mean zero."""
+    return _row(order, derivative, lambda n: scale / sp.Integer(n), turn + 90)
 
 
-def _unit(degrees: Any) -> tuple[Any, Any]:
-    return sp.cos(sp.pi * degrees / 180), sp.sin(sp.pi * degrees / 180)
-
-
-def _through(vectors: Sequence[tuple[Any, Any]]) -> Coefficients:
-    """Return the form that vanishes along the vectors: the product of c y - s x."""
-    product: Coefficients = [sp.Integer(1)]
-    for c, s in vectors:
-        product = _multiply(product, [-s, c])
-    return product
-
-
-def _multiply(a: Coefficients, b: Coefficients) -> Coefficients:
-    result = [sp.Integer(0)] * (len(a) + len(b) - 1)
-    for i, p in enumerate(a):
-        for j, q in enumerate(b):
-            result[i + j] += p * q
-    return [sp.expand(c) for c in result]
-
-
-def _times_circle(form: Coefficients, order: int) -> BinaryForm:
-    while len(form) - 1 < order:
-        form = _multiply(form, [sp.Integer(1), sp.Integer(0), sp.Integer(1)])
-    return BinaryForm(form)
-
-
-def _mean(form: Coefficients) -> Any:
-    """Return the mean of a form of even order over the circle."""
-    return factorial(len(form) - 1) * BinaryForm(form).row[0]
-
-
-def _slope(form: BinaryForm, v: tuple[Any, Any]) -> int:
-    """Return the sign of the derivative of a form along the circle at v."""
-    return sign(form.angular_derivative()(*v))
-
-
-def _integrate(derivative: BinaryForm) -> WavejetsRow:
-    """Return the row with g' = F on the circle, for a form F of mean zero."""
-    phi, scale = {}, factorial(derivative.order)
-    for n, (real, imaginary) in derivative.row.parts.items():
+def _row(order: int, wave: Wave, scale: Callable[[int], Any], turn: int = 0) -> WavejetsRow:
+    """Return the row with phi_n = scale(n) exp(-i turn) times the coefficients, and no mean."""
+    row = WavejetsRow(order, {})
+    for n in row.parts:
         if n:
-            # F has the coefficients k! Phi_n in the convention of rows, and they are i n phi_n.
-            phi[n] = scale * (imaginary - sp.I * real) / n
-    return WavejetsRow(derivative.order, phi)
+            real, imaginary = wave.parts(n, turn=turn)
+            row.parts[n] = scale(n) * real, scale(n) * imaginary
+    return row
 
 
 def rows_with_critical_lines(order: int, angles: Sequence[Any]) -> list[WavejetsRow]:
@@ -299,18 +210,23 @@ def rows_with_critical_lines(order: int, angles: Sequence[Any]) -> list[Wavejets
     """
     k = check_order(order, 1)
     lines = sorted({a - 180 * sp.floor(a / 180) for a in _ascending(angles)}, key=_ORDER)
-    free = k - len(lines)
-    product = _through([_unit(a) for a in lines])
-    monomials = [[sp.Integer(int(i == j)) for i in range(free + 1)] for j in range(free + 1)]
-    forms = [BinaryForm(_multiply(product, m)) for m in monomials]
+    sines, free = Wave.product_of_sines(lines), k - len(lines)
+    factors = [
+        Wave.cosine(n, shift)
+        for n in (frequencies(free) if free >= 0 else ())
+        for shift in ((0, 90) if n else (0,))
+    ]
+    # All are multiplied by (2 i)^m.
+    forms, quarter = [sines * factor for factor in factors], 90 * len(lines)
     if k % 2:
-        return [_integrate(f) for f in forms]
-    means = [f.row[0] for f in forms]
-    pivot = next((i for i, m in enumerate(means) if not is_zero(m)), None)
-    rows = [WavejetsRow(k, {0: 1})]
-    for i, (form, mean) in enumerate(zip(forms, means, strict=True)):
-        if pivot is None or is_zero(mean):
-            rows.append(_integrate(form))
-        elif i != pivot:
-            rows.append(_integrate(form * means[pivot] - forms[pivot] * mean))
+        return [_integrate(f, k, quarter) for f in forms]
+    flat = [all(part == 0 for part in f.parts(0)) for f in forms]
+    rows = [
+        WavejetsRow(k, {0: 1}),
+        *(_integrate(f, k, quarter) for f, z in zip(forms, flat, strict=True) if z),
+    ]
+    tilted = [f for f, is_flat in zip(forms, flat, strict=True) if not is_flat]
+    for form in tilted[1:]:
+        mean, other = (Wave.constant(f.terms[0]) for f in (tilted[0], form))
+        rows.append(_integrate(form * mean - tilted[0] * other, k, 2 * quarter))
     return rows

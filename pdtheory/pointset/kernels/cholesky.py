@@ -15,6 +15,8 @@ from pdtheory.pointset.kernels.lanes import LANES, Lanes, Rows, emit
 
 #: Rows eliminated together.
 PANEL = 4
+#: Room for the monomials of one degree, in whole vectors.
+WIDEST = 16
 #: Relative pivot at which the factorization ends.
 SINGULAR = 1e-15
 
@@ -25,8 +27,8 @@ def padded_rows(count: int) -> int:
 
 
 def padded_columns(count: int) -> int:
-    """Columns for `count` coefficients: whole vectors, and two more."""
-    return (padded_rows(count) // LANES + 3) * LANES
+    """Columns for `count` coefficients: whole vectors, and room for a degree more."""
+    return (padded_rows(count) // LANES + 1) * LANES + WIDEST
 
 
 @emit
@@ -42,7 +44,7 @@ def fill_gram(to: Lanes, sums: Rows, heights: Rows, degree: Any, ordered: Rows, 
         From `sum_products`, to twice the degree and to the degree.
     degree : int
         The degree K.
-    ordered : (>= 2 K + 1, >= 2 K + 1 + LANES) float64
+    ordered : (>= 2 K + 1, >= 2 K + 1 + WIDEST) float64
         Scratch for the sorted sums.
     gram : (rows + 1, padded_columns) float64
         Receives the lower triangle, and finite numbers as far behind it as the factorization looks.
@@ -59,7 +61,8 @@ def fill_gram(to: Lanes, sums: Rows, heights: Rows, degree: Any, ordered: Rows, 
             with to.count(0, to.plus(lower, 1)) as above:
                 other = to.minus(degree, above)
                 source, place = to.plus(d, other), to.get(column)
-                with to.count(0, to.plus(other, 1), LANES) as k:
+                # What goes beyond the degree is written over by the next one.
+                for k in range(0, WIDEST, LANES):
                     value = to.load(ordered.at(source, to.plus(b, k)))
                     to.store(value, gram.at(i, to.plus(place, k)))
                 to.put(to.plus(place, other, 1), column)

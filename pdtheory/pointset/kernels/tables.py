@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from pdtheory.conventions import frequencies
-from pdtheory.pointset.kernels.cholesky import padded_columns, padded_rows
+from pdtheory.pointset.kernels.cholesky import WIDEST, padded_columns, padded_rows
 from pdtheory.pointset.kernels.jit import Array
 from pdtheory.pointset.kernels.lanes import LANES
 from pdtheory.pointset.kernels.moments import BLOCK, cube_rows
@@ -79,7 +79,7 @@ WORKSPACE = layout(
     columns=(LANES + 1, BLOCK),
     sums=(2 * MAX_DEGREE + 4, 2 * MAX_DEGREE + 2 * LANES),
     heights=(2 * MAX_DEGREE + 4, 2 * MAX_DEGREE + 2 * LANES),
-    ordered=(2 * MAX_DEGREE + 1, 2 * MAX_DEGREE + 2 * LANES),
+    ordered=(2 * MAX_DEGREE + 1, 2 * MAX_DEGREE + 1 + WIDEST),
     G=(_ROWS, _COLUMNS),
     S=(_ROWS, _COLUMNS),
     X=(_ROWS, _COLUMNS),
