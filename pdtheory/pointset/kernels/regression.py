@@ -31,10 +31,10 @@ WORST_PIVOT = 1e-9
 DEFICIENT, DOUBTFUL = 1e-4, 1e-3
 #: Smallest relative pivot of each degree for points that fill the disc evenly.
 FULL_DISC = make_tables()["full_disc"].copy()
-#: Below this pivot the solution is refined against the samples, if they lie so close to the surface
-#: that rounding counts: it changes the coefficients by about 1 / pivot roundings, the misfit by
-#: itself over the root of the pivot, of which the former shall be no more than a thousandth.
-REFINE_PIVOT, ROUNDING = 1e-4, 1e3 * 2.2e-16
+#: Below the first pivot the solution is refined against the samples; below the second if these lie
+#: so close to the surface that rounding counts: it changes the coefficients by about 1 / pivot
+#: roundings, the misfit by itself over the root of the pivot, of which that may be a thousandth.
+REFINE_PIVOT, EXACT_PIVOT, ROUNDING = 1e-5, 1e-4, 1e3 * 2.2e-16
 
 
 @inner
@@ -118,7 +118,9 @@ def refine(cloud: Array, weights: int, n: int, degree: int, w: Any) -> None:
 @inner
 def rounding_counts(pivot: float, residual: float) -> bool:
     """Whether a fit with this pivot and misfit, in units of the radius, shall be refined."""
-    return pivot < REFINE_PIVOT and residual * np.sqrt(pivot) < ROUNDING
+    if pivot < REFINE_PIVOT:
+        return True
+    return pivot < EXACT_PIVOT and residual * np.sqrt(pivot) < ROUNDING
 
 
 @inner
