@@ -10,6 +10,7 @@ import numpy as np
 
 from pdtheory.conventions import wavejets_table
 from pdtheory.pointset.cloud import FloatArray, IntArray
+from pdtheory.pointset.columns import finite_rows, highest, lowest
 from pdtheory.pointset.kernels.chunk import fit_chunk
 from pdtheory.pointset.kernels.directions import BENCH, find_directions
 from pdtheory.pointset.kernels.fit import Settings
@@ -78,7 +79,7 @@ class Engine:
         self._rounding = rounding
         self._columns = len(wavejets_table(settings.degree))
         self._reach = PLANAR_REACH if settings.planar else 1.0
-        extent = float(np.ptp(points, axis=0).max())
+        extent = float((highest(points) - lowest(points)).max())
         if choice.radius is not None:
             size = choice.radius * self._reach
         else:
@@ -91,10 +92,11 @@ class Engine:
             self._tree = kd_tree(points[order])
         else:
             refuse_crowd(int(np.diff(self._grid.starts).max()), choice)
-        self._valid = np.isfinite(queries).all(axis=1)
+        self._valid = finite_rows(queries)
         self.queries = np.where(self._valid[:, None], queries, 0.0)
         self.references = references()
-        self.visit = cell_order(self._grid, self.queries)
+        same = np.array_equal(self.queries, points)
+        self.visit = order if same else cell_order(self._grid, self.queries)
 
     def at_degree(self, degree: int) -> Engine:
         """Return an engine for the same points and neighbourhoods with another degree."""

@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from pdtheory.errors import InputError
 from pdtheory.pointset.cloud import FloatArray, IntArray, PointCloud
+from pdtheory.pointset.columns import finite_rows, highest, lowest
 from pdtheory.pointset.orientation import consistent_normals, winding_normals
 from pdtheory.pointset.trees import kd_tree
 
@@ -101,7 +102,7 @@ def take_in(
         normals = points.normals if normals is None else normals
         points = points.points
     places, roundoff = as_vectors(points, name)
-    finite = np.isfinite(places).all(axis=1)
+    finite = finite_rows(places)
     dropped = int(len(finite) - finite.sum())
     if dropped and non_finite == "refuse":
         first = int(np.flatnonzero(~finite)[0])
@@ -148,7 +149,7 @@ def _extent(points: FloatArray, name: str) -> tuple[FloatArray, float]:
         raise InputError(
             f"{name}: {len(points)} finite points are too few; the smallest fit needs {FEWEST}."
         )
-    low, high = points.min(axis=0), points.max(axis=0)
+    low, high = lowest(points), highest(points)
     with np.errstate(over="ignore"):
         diagonal = float(np.linalg.norm(high - low))
     if diagonal == 0.0:
@@ -201,12 +202,12 @@ def _sides(
             raise InputError(
                 f"{len(vectors)} normals for {len(places)} points; give one for each point."
             )
-        return np.where(np.isfinite(vectors).all(axis=1)[:, None], vectors, 0.0)
+        return np.where(finite_rows(vectors)[:, None], vectors, 0.0)
     if mode == "winding":
         if faces is None or not len(faces):
             raise InputError("orient='winding' needs a mesh with faces.")
         vectors = winding_normals(places, faces)
-        return np.where(np.isfinite(vectors).all(axis=1)[:, None], vectors, 0.0)
+        return np.where(finite_rows(vectors)[:, None], vectors, 0.0)
     if mode == "propagate":
         vectors = np.zeros_like(places)
         vectors[finite] = consistent_normals(places[finite] - places[finite].mean(axis=0))

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from pdtheory.pointset.columns import highest, lowest
 from pdtheory.pointset.kernels.jit import Array, IntArray, inner
 from pdtheory.pointset.kernels.lanes import LANES, Lanes, Rows, emit
 from pdtheory.pointset.kernels.tables import REACH
@@ -153,8 +154,11 @@ def gather_listed(
 
 
 def _cell_numbers(points: Any, corner: Any, cell: float, shape: Any) -> Any:
-    cells = np.clip(np.floor((points - corner) / cell), 0, shape - 1).astype(np.int64)
-    return (cells[:, 0] * shape[1] + cells[:, 1]) * shape[2] + cells[:, 2]
+    number = np.zeros(len(points), np.int64)
+    for axis, column in enumerate(points.T):
+        at = np.clip(np.floor((column - corner[axis]) / cell), 0, shape[axis] - 1)
+        number = number * shape[axis] + at.astype(np.int64)
+    return number
 
 
 def build_grid(points: Any, radius: float) -> tuple[Grid, Any]:
@@ -174,18 +178,19 @@ def build_grid(points: Any, radius: float) -> tuple[Grid, Any]:
     order : (P,) int64
         Which point stands where: ``grid.columns[:, :P] = points[order].T``.
     """
-    corner = points.min(axis=0)
-    extent = points.max(axis=0) - corner
+    corner = lowest(points)
+    extent = highest(points) - corner
     # 2^20 cells an axis keep the cell number within 63 bits; larger cells are slower, not wrong.
     cell = max(radius / REACH, float(extent.max()) / 2**20)
     shape = np.floor(extent / cell).astype(np.int64) + 1
     key = _cell_numbers(points, corner, cell, shape)
     order = np.argsort(key, kind="stable")
-    keys, starts = np.unique(key[order], return_index=True)
-    starts = np.append(starts, len(points)).astype(np.int64)
+    key = key[order]
+    first = np.flatnonzero(np.diff(key, prepend=key[0] - 1))
+    starts = np.append(first, len(points)).astype(np.int64)
     columns = np.zeros((3, len(points) + LANES))
     columns[:, : len(points)] = points[order].T
-    return Grid(columns, keys, starts, shape, corner, cell), order
+    return Grid(columns, key[first], starts, shape, corner, cell), order
 
 
 def cell_order(grid: Grid, queries: Any) -> Any:
