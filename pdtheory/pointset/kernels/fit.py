@@ -27,9 +27,6 @@ FRAME_TANGENT, FRAME_PRINCIPAL, FRAME_GIVEN = 0, 1, 2
 PREFIT_DEGREE = 4
 #: Neighbours that a fit must have for each coefficient.
 MARGIN = 1.25
-#: Squared thickness of neighbours, as a fraction of their width, whose principal plane is good
-#: enough to be tilted.
-FLAT = 1e-2
 #: Tilts with the full fit.
 RETILTS = 8
 #: With l1 the residual may be that of outliers, so a tenth of it decides about another tilt.
@@ -204,8 +201,7 @@ def affordable_degree(n: int, degree: int) -> int:
 def choose_frame(cloud: Array, n: int, reference: Array, settings: Settings, w: Any) -> int:
     """Set ``w.frame`` from the principal axes or the given vector; returns the status."""
     frame = w.frame
-    flat = FLAT if settings.frame == FRAME_TANGENT else 0.0
-    if not principal_frame(cloud, n, flat, w.B, w.A, w.Q, w.plane, w.spread, frame):
+    if not principal_frame(cloud, n, w.B, w.A, w.Q, w.plane, w.spread, frame):
         return _DEGENERATE
     if settings.frame == FRAME_GIVEN:
         for i in range(3):

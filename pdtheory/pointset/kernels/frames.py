@@ -86,15 +86,7 @@ def _sum_spread(to: Lanes, cloud: Rows, n: Any, plane: Rows, out: Rows) -> None:
 
 @inner
 def principal_frame(
-    cloud: Array,
-    n: int,
-    flat: float,
-    S: Array,
-    A: Array,
-    Q: Array,
-    plane: Array,
-    sums: Array,
-    frame: Array,
+    cloud: Array, n: int, S: Array, A: Array, Q: Array, plane: Array, sums: Array, frame: Array
 ) -> bool:
     """Write the robust principal axes of n weighted points, centred on their mean.
 
@@ -107,9 +99,6 @@ def principal_frame(
         Points relative to the origin of the frame, and their weights.
     n : int
         Number of points, a multiple of LANES.
-    flat : float
-        Ratio of the smallest to the middle variance below which no outliers are suspected, and the
-        plane is not fitted again.
     S, A, Q : (3, 3) float64
         Scratch.
     plane, sums : (>= 5,), (>= 10 + LANES,) float64
@@ -154,7 +143,7 @@ def principal_frame(
         for i in range(3):
             plane[i] = Q[i, low]
             plane[3] += sums[1 + i] / s * Q[i, low]
-        if not A[low, low] > max(1e-24 * A[high, high], flat * A[middle, middle]):
+        if not A[low, low] > 1e-24 * A[high, high]:
             break
         plane[4] = 1.0 / A[low, low]
     for i in range(3):
