@@ -197,22 +197,22 @@ def print_order(pairs: EigenPairs, digits: int = 12, *, rounded: bool = False) -
     """Print one order: its form, its Wavejets row, and the table of pairs (:func:`eigen_table`)."""
     from rich.console import Console
 
-    from pdtheory.exact.report import short
+    from pdtheory.exact.report import short_form, short_number
 
     console = Console(highlight=False)
     # Digits that were asked for are never cut: a narrow terminal wraps the lines itself.
     console.width = max(console.width, 2 * digits + 56)
-    console.print(
-        f"[bold]Order {pairs.order}[/]  T v^{pairs.order} = {short(pairs.form.expression)}"
+    console.print(f"[bold]Order {pairs.order}[/]  T v^{pairs.order} = {short_form(pairs.form)}")
+    row = ", ".join(
+        f"phi_{n} = {short_number(*parts)}" for n, parts in pairs.form.row.parts.items()
     )
-    row = ", ".join(f"phi_{n} = {short(value, 40)}" for n, value in pairs.form.row.phi.items())
     console.print(f"Wavejets row: {row}")
     if pairs.status == "ok":
         console.print(eigen_table(pairs.order, pairs, digits, rounded=rounded))
     elif pairs.status == "isotropic":
         console.print(
             "Isotropic: every unit vector is an E-eigenvector, lambda = "
-            f"{short(pairs.isotropic_eigenvalue)}."
+            f"{short_number(pairs.isotropic_eigenvalue)}."
         )
     else:
         console.print("This order vanishes.")

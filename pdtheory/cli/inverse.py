@@ -12,9 +12,6 @@ from pdtheory.errors import InputError
 if TYPE_CHECKING:
     from pdtheory.exact import WavejetsRow
 
-#: Digits to which coefficients are rounded before the row is checked.
-CHECK_DIGITS = 60
-
 
 def inverse(
     order: Annotated[int, typer.Option("--order", help="The order k.")],
@@ -51,13 +48,12 @@ def _realize(order: int, angles: list[Any], digits: int, as_json: bool) -> None:
     from pdtheory.exact.report import order_report
 
     found = realize_maxima(order, angles)
-    near = None if found.row is None else round_row(found.row)
-    pairs = None if near is None else near.eigenpairs()
+    pairs = None if found.row is None else found.row.eigenpairs()
     if as_json:
         data: dict[str, Any] = {"realizable": found.is_realizable, "reason": found.reason}
         if found.row is not None and pairs is not None:
             data["exact_wavejets"] = _texts(found.row)
-            data["orders"] = {str(order): order_report(pairs, rounded=near != found.row)}
+            data["orders"] = {str(order): order_report(pairs)}
         typer.echo(json.dumps(data, indent=2))
         return
     verdict = "Realizable" if found.is_realizable else "Not realizable"
@@ -65,7 +61,7 @@ def _realize(order: int, angles: list[Any], digits: int, as_json: bool) -> None:
     if found.row is not None and pairs is not None:
         for n, text in _texts(found.row).items():
             typer.echo(f"phi_{n} = {text}")
-        print_order(pairs, digits, rounded=near != found.row)
+        print_order(pairs, digits)
 
 
 def _family(order: int, angles: list[Any], digits: int, as_json: bool) -> None:
@@ -86,20 +82,6 @@ def _family(order: int, angles: list[Any], digits: int, as_json: bool) -> None:
     for i, row in enumerate(rows, start=1):
         values = ", ".join(f"phi_{n} = {_number(v, digits)}" for n, v in row.to_complex().items())
         typer.echo(f"{i}: {values}")
-
-
-def round_row(row: WavejetsRow) -> WavejetsRow:
-    """Return a row with its irrational coefficients rounded to 60 digits, zeros kept."""
-    import sympy as sp
-
-    from pdtheory.exact import WavejetsRow
-    from pdtheory.exact.enclosing import rounded
-    from pdtheory.exact.zeros import is_zero
-
-    def near(value: Any) -> Any:
-        return sp.Integer(0) if is_zero(value) else rounded(value, CHECK_DIGITS)
-
-    return WavejetsRow(row.order, {n: near(a) + sp.I * near(b) for n, (a, b) in row.parts.items()})
 
 
 def _texts(row: WavejetsRow) -> dict[str, str]:

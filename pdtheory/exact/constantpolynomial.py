@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any, Final, NamedTuple
 
 import sympy as sp
 
@@ -18,6 +18,10 @@ from pdtheory.exact.balls import engine, in_order_of
 from pdtheory.exact.enclosing import real_balls
 from pdtheory.exact.intervals import Enclosure, Rectangle
 from pdtheory.exact.realnumber import FIRST_BITS, precisions
+from pdtheory.exact.texts import text_within
+
+#: Longest text of a polynomial that is shown.
+LONG: Final = 160
 
 _T = sp.Symbol("t")
 
@@ -115,10 +119,10 @@ class ConstantPolynomial:
             return Isolation(tuple(sorted(real)), tuple(sorted(upper)))
 
     def text(self) -> str:
-        """Return the polynomial in t; empty if its coefficients have no expressions."""
+        """Return the polynomial in t; empty if it is long or its coefficients have no text."""
         if self.expressions is None:
             return ""
-        return sp.sstr(sp.Add(*(c * _T**j for j, c in enumerate(self.expressions))))
+        return text_within(sp.Add(*(c * _T**j for j, c in enumerate(self.expressions))), LONG)
 
 
 def _roots(polynomial: Any, bits: int) -> list[Any] | None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Final
+from typing import Any
 
 import sympy as sp
 
@@ -12,10 +12,8 @@ from pdtheory.exact.enclosing import enclose_real
 from pdtheory.exact.intervals import Enclosure
 from pdtheory.exact.named import EnclosedConstant
 from pdtheory.exact.realnumber import SHORT, RealNumber
+from pdtheory.exact.texts import text_within
 from pdtheory.exact.zeros import sign
-
-#: Longest text of a polynomial that is shown.
-LONG: Final = 160
 
 
 @dataclass(frozen=True)
@@ -99,7 +97,7 @@ class RealRoot(RealNumber):
         if self.radical is not None:
             return str(self.radical)
         place, polynomial = self.enclosure(digits).text(digits), self.polynomial.text()
-        if 0 < len(polynomial) <= LONG:
+        if polynomial:
             return f"the root of {polynomial} in {place}"
         return f"a number in {place}"
 
@@ -133,10 +131,9 @@ class RootOfConstants(EnclosedConstant):
         return self.root.at_precision(bits)
 
     def _sympystr(self, printer: Any) -> str:
-        polynomial = self.root.polynomial.text()
-        if not 0 < len(polynomial) <= LONG:
-            polynomial = f"a polynomial of degree {self.root.polynomial.degree}"
-        return f"RootOf({polynomial}, {self.root.index})"
+        polynomial = self.root.polynomial
+        text = polynomial.text() or f"a polynomial of degree {polynomial.degree}"
+        return f"RootOf({text}, {self.root.index})"
 
     _sympyrepr = _sympystr
 
@@ -145,4 +142,4 @@ class RootOfConstants(EnclosedConstant):
 
 
 def _is_short(expression: Any) -> bool:
-    return len(str(expression)) <= SHORT
+    return bool(text_within(expression, SHORT))

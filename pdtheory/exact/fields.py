@@ -11,7 +11,7 @@ relations between the numbers are. What vanishes is decided afterwards (`zeros`)
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from functools import reduce
+from functools import cached_property, reduce
 from math import factorial
 from operator import mul
 from typing import Any
@@ -75,7 +75,21 @@ class Field:
         self._known = dict(zip(parts, elements, strict=True))
         if symbols:
             self._known.update(zip(self._names, self.domain.gens, strict=True))
-        self.ring, *self.variables = ring(variables, self.domain)
+        self._variable_names = variables
+
+    @cached_property
+    def _ring(self) -> tuple[Any, ...]:
+        return tuple(ring(self._variable_names, self.domain))
+
+    @property
+    def ring(self) -> Any:
+        """The ring of polynomials in the variables."""
+        return self._ring[0]
+
+    @property
+    def variables(self) -> tuple[Any, ...]:
+        """The variables of the polynomials."""
+        return self._ring[1:]
 
     def element(self, constant: Any) -> Any:
         """Return a constant as a coefficient."""

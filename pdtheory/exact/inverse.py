@@ -11,7 +11,6 @@ from typing import Any
 
 import sympy as sp
 
-from pdtheory.conventions import frequencies
 from pdtheory.errors import InputError
 from pdtheory.exact.coefficients import check_order, exact
 from pdtheory.exact.wavejets import WavejetsRow
@@ -210,23 +209,24 @@ def rows_with_critical_lines(order: int, angles: Sequence[Any]) -> list[Wavejets
     """
     k = check_order(order, 1)
     lines = sorted({a - 180 * sp.floor(a / 180) for a in _ascending(angles)}, key=_ORDER)
-    sines, free = Wave.product_of_sines(lines), k - len(lines)
-    factors = [
+    sines = Wave.product_of_sines(lines)
+    # All forms and the turn of their coefficients belong to (2 i)^m F.
+    forms, turn = [sines * factor for factor in _basis(k - len(lines))], 90 * len(lines)
+    if k % 2:
+        return [_integrate(form, k, turn) for form in forms]
+    flat = [form for form in forms if not any(form.parts(0))]
+    tilted = [form for form in forms if any(form.parts(0))]
+    rows = [WavejetsRow(k, {0: 1}), *(_integrate(form, k, turn) for form in flat)]
+    for form in tilted[1:]:
+        means = [Wave.constant(f.terms[0]) for f in (tilted[0], form)]
+        rows.append(_integrate(form * means[0] - tilted[0] * means[1], k, 2 * turn))
+    return rows
+
+
+def _basis(degree: int) -> list[Wave]:
+    """Return a real basis of the forms of a degree on the circle; none of a negative degree."""
+    return [
         Wave.cosine(n, shift)
-        for n in (frequencies(free) if free >= 0 else ())
+        for n in range(degree % 2, degree + 1, 2)
         for shift in ((0, 90) if n else (0,))
     ]
-    # All are multiplied by (2 i)^m.
-    forms, quarter = [sines * factor for factor in factors], 90 * len(lines)
-    if k % 2:
-        return [_integrate(f, k, quarter) for f in forms]
-    flat = [all(part == 0 for part in f.parts(0)) for f in forms]
-    rows = [
-        WavejetsRow(k, {0: 1}),
-        *(_integrate(f, k, quarter) for f, z in zip(forms, flat, strict=True) if z),
-    ]
-    tilted = [f for f, is_flat in zip(forms, flat, strict=True) if not is_flat]
-    for form in tilted[1:]:
-        mean, other = (Wave.constant(f.terms[0]) for f in (tilted[0], form))
-        rows.append(_integrate(form * mean - tilted[0] * other, k, 2 * quarter))
-    return rows

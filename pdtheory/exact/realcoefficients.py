@@ -22,7 +22,8 @@ from pdtheory.exact.independent import Independent
 from pdtheory.exact.intervals import Enclosure
 from pdtheory.exact.numberfield import in_number_field
 from pdtheory.exact.separation import extent, is_known_algebraic
-from pdtheory.exact.zeros import is_zero, sign, size_of
+from pdtheory.exact.texts import size_of
+from pdtheory.exact.zeros import is_zero, sign
 
 #: Total size of transcendental coefficients in which a common factor is looked for.
 LONGEST_WITH_FACTOR: Final = 400
@@ -62,7 +63,7 @@ class Coefficients:
         factor: Any = sp.Integer(1)
         quotients = self.expressions
         if not all(is_known_algebraic(e) for e in quotients):
-            if sum(size_of(e) for e in self.expressions) > LONGEST_WITH_FACTOR:
+            if sum(size_of(e, LONGEST_WITH_FACTOR) for e in self.expressions) > LONGEST_WITH_FACTOR:
                 return factor, None
             lead = next((e for e in self.expressions if not is_zero(e)), None)
             if lead is None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from math import isfinite
+from math import inf, isfinite
 from typing import Any
 
 import sympy as sp
@@ -12,9 +12,14 @@ from pdtheory.errors import ComputationError, InputError
 from pdtheory.exact.characteristic import characteristic_polynomial
 from pdtheory.exact.coefficients import MAX_ORDER
 from pdtheory.exact.complexpairs import complex_eigenpairs
+from pdtheory.exact.constantroots import RealConstant
 from pdtheory.exact.eigenpairs import EigenPairs, real_eigenpairs
+from pdtheory.exact.enclosing import nearest_double
 from pdtheory.exact.faces import BinaryForm, Face
+from pdtheory.exact.realnumber import to_float
 from pdtheory.exact.taylor import taylor_forms
+from pdtheory.exact.texts import text_within
+from pdtheory.exact.zeros import is_zero
 
 
 def degree_bound(expression: Any, variables: Iterable[Any]) -> int | None:
@@ -117,18 +122,21 @@ def order_report(pairs: EigenPairs, *, rounded: bool = False) -> dict[str, Any]:
 
 
 def _double(value: Any) -> float:
-    """Return a number in double precision.
+    """Return a real number, exact or a SymPy float, in double precision.
 
     Raises
     ------
     ComputationError
         If it is beyond the range of doubles, as an eigenvalue of high order may be.
     """
-    number = float(value)
+    try:
+        number = float(value) if value.is_Float else nearest_double(value)
+    except OverflowError:
+        number = inf
     if not isfinite(number):
         raise ComputationError(
-            f"The number {sp.N(value, 6)} is beyond double precision; ask for the table, which "
-            "has any range, or for a lower order."
+            f"The number {short_number(value)} is beyond double precision; ask for the table, "
+            "which has any range, or for a lower order."
         )
     return number
 
@@ -194,9 +202,24 @@ def latex_pairs(pairs: EigenPairs) -> str:
     return f"\\[ \\begin{{array}}{{rcccc}}\n{head}\n{body}\n\\end{{array}} \\]"
 
 
-def short(expression: Any, length: int = 60) -> str:
-    """Return the text of an expression; where too long, with rounded numbers, and then cut."""
-    text = sp.sstr(expression)
-    if len(text) > length:
-        text = sp.sstr(sp.N(expression, 6))
+def short_form(form: BinaryForm, length: int = 60) -> str:
+    """Return the text of a form; where too long, with rounded coefficients, and then cut."""
+    text = text_within(form.expression, length)
+    if not text:
+        near = BinaryForm([0] * (form.order + 1))
+        near.coefficients = tuple(_rounded(c) for c in form.coefficients)
+        text = str(sp.sstr(near.expression))
     return text if len(text) <= length else text[: length - 3] + "..."
+
+
+def short_number(real: Any, imaginary: Any = sp.S.Zero, length: int = 40) -> str:
+    """Return the text of a complex number; where too long, that of the rounded one."""
+    return text_within(real + sp.I * imaginary, length) or str(
+        sp.sstr(_rounded(real) + sp.I * _rounded(imaginary))
+    )
+
+
+def _rounded(value: Any, digits: int = 6) -> Any:
+    if value.is_Integer or is_zero(value):
+        return value if value.is_Integer else sp.Integer(0)
+    return to_float(RealConstant(value).enclosure, digits)

@@ -18,6 +18,7 @@ from pdtheory.exact.enclosing import enclose
 from pdtheory.exact.exponentials import Root, Term, TooLong, numerator_terms
 from pdtheory.exact.realnumber import precisions
 from pdtheory.exact.separation import separation_bits
+from pdtheory.exact.texts import size_of
 
 #: Bits of the enclosures in which a constant may show that it is not zero, before a proof of zero
 #: is tried, and after.
@@ -163,17 +164,8 @@ def _vanishes_identically(value: Any) -> bool:
     return bool(sp.simplify(expanded) == 0)
 
 
-def size_of(value: Any, most: int = LONGEST_SIMPLIFIED) -> int:
-    """Return the number of nodes of an expression; any number above `most` if there are more."""
-    stack, count = [value], 0
-    while stack and count <= most:
-        count += 1
-        stack.extend(stack.pop().args)
-    return count
-
-
 def _is_short(value: Any) -> bool:
-    return size_of(value) <= LONGEST_SIMPLIFIED
+    return size_of(value, LONGEST_SIMPLIFIED) <= LONGEST_SIMPLIFIED
 
 
 def _shown(value: Any) -> str:

@@ -23,6 +23,7 @@ from pdtheory.exact import (
 )
 from pdtheory.exact.independent import Independent
 from pdtheory.exact.squarefree import squarefree_parts
+from pdtheory.exact.texts import text_within
 from pdtheory.exact.zeros import is_zero
 from pdtheory.testing.profiles import examples
 
@@ -414,3 +415,17 @@ def test_relations_between_exponentials_are_identities():
     for zero in (HIDDEN_ZERO, e - HIDDEN_E, sp.sin(2) - 2 * sp.sin(1) * sp.cos(1),
                  sp.exp(2) - e * sp.exp(sp.Rational(1, 2)) ** 2):  # fmt: skip
         assert Independent([zero]).polynomials == [0]
+
+
+@pytest.mark.parametrize(
+    "value", [-x, 1 / x, sp.sqrt(2), sp.exp(sp.exp(sp.exp(x))), x + 2 * y, -pi, -1 / (x - y)]
+)
+def test_texts_are_returned_iff_they_fit(value):
+    assert text_within(value, len(str(value))) == str(value)
+    assert not text_within(value, len(str(value)) - 1)
+
+
+def test_a_long_expression_is_not_written(monkeypatch):
+    value = sp.Add(*(sp.cos(n) for n in range(1, 200)))
+    monkeypatch.setattr("pdtheory.exact.texts.sp.sstr", pytest.fail)
+    assert not text_within(value, 100)

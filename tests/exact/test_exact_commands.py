@@ -111,7 +111,18 @@ def test_inverse():
     family = load("inverse", "--order", "4", "--critical", "0,30")
     assert family["dimension"] == len(family["basis"]) == 3
     assert "dimension 3" in run("inverse", "--order", "4", "--critical", "0,30")
+    exact = found["orders"]["3"]["pairs"][0]["exact"]
+    assert exact.startswith("v = (1, 0), lambda = the root of 8*t**3 + 24*t**2 - 30*t - 19 in")
     assert "Realizable" in run("inverse", "--order", "3", "--maxima", "0,110,250")
+
+
+def test_inverse_of_eight_maxima_by_its_exact_row():
+    maxima = [5, 17, 60, 100, 185, 197, 240, 280]
+    arguments = ("inverse", "--order", "8", "--maxima", ",".join(map(str, maxima)))
+    found = load(*arguments)
+    assert angles(found["orders"]["8"], "max") == maxima
+    assert found["exact_wavejets"]["8"] == "-cos(pi/45)/256 + I*sin(pi/45)/256"
+    assert "phi_2 = -0.00200856 - 0.0244919*I" in " ".join(run(*arguments).split())
 
 
 def test_cone():
@@ -149,6 +160,7 @@ def test_a_flat_cone_says_why_nothing_is_listed():
         (["eigen", "x", "--order", "100000"], "100000"),
         (["eigen", "7"], "vanishes"),
         (["eigen", "x**200", "--order", "200", "--json"], "beyond double precision"),
+        (["eigen", "10**200*10**200*(x + sqrt(2)*y)", "--json"], "beyond double precision"),
         (["eigen", "sqrt(-2)*x"], "not real"),
         (["eigen", "x + (4*atan(1/5) - atan(1/239) - pi/4)*y"], "could not be proved"),
         (["eigen", "log(x)"], "no derivative"),

@@ -27,6 +27,19 @@ def numeric_maxima(row, count=7200):
     return grid[(g > np.roll(g, 1)) & (g >= np.roll(g, -1))]
 
 
+def numeric_phi(row):
+    """The coefficients by mpmath."""
+    return {n: mpmath.mpc(*(sp.N(p, 60) for p in parts)) for n, parts in row.parts.items()}
+
+
+def derivative(phi, degrees, times):
+    """A derivative of g along the circle by mpmath, from the coefficients alone."""
+    a = mpmath.radians(mpmath.mpf(sp.N(degrees, 60)))
+    return 2 * mpmath.re(
+        mpmath.fsum((1j * n) ** times * p * mpmath.expj(n * a) for n, p in phi.items())
+    )
+
+
 def assert_maxima(row, angles):
     found = numeric_maxima(row)
     expected = sorted(float(a) % 360 for a in angles)
@@ -59,6 +72,39 @@ def test_realized_maxima_are_found_again(order, angles):
     result = realize_maxima(order, angles)
     assert result.is_realizable, result.reason
     assert_maxima(result.row, angles)
+
+
+@pytest.mark.parametrize(
+    ("order", "lines"),
+    [
+        (6, [0, 10, 70]),
+        (8, [5, 17, 60, 100]),
+        (9, [0, 41, 79, 121, 161, 199, 241, 281, 319]),
+        (10, [1, 22, 63, 97, 150]),
+        (10, [sp.sqrt(2), sp.Rational(45, 2), sp.pi + 60, 100]),
+        (16, [1, 22, 45, 63, 97, 120, 150, 170]),
+    ],
+)
+def test_long_rows_have_the_maxima_to_50_digits(order, lines):
+    """Their derivative is evaluated by mpmath, and its zeros are counted by its signs."""
+    angles = lines if order % 2 else [*lines, *(a + 180 for a in lines)]
+    row = realize_maxima(order, angles).row
+    # Multiplied out without merging, these rows have more terms by orders of magnitude.
+    lengths = [len(sp.Add.make_args(part)) for parts in row.parts.values() for part in parts]
+    assert max(lengths) <= min(3 ** len(lines), 360)
+    with mpmath.workdps(60):
+        phi = numeric_phi(row)
+        size = max(abs(p) for p in phi.values())
+        for angle in angles:
+            assert abs(derivative(phi, angle, 1)) < size * mpmath.mpf(10) ** -50
+            assert derivative(phi, angle, 2) < 0
+    grid = 2 * np.pi * (np.arange(20000) + 0.5) / 20000
+    slope = sum((2j * n * complex(p) * np.exp(1j * n * grid)).real for n, p in phi.items())
+    assert np.count_nonzero((slope > 0) & (np.roll(slope, -1) < 0)) == len(angles)
+    found = [p.angle_degrees(40) for p in row.eigenpairs().maxima]
+    assert len(found) == len(angles)
+    for value, angle in zip(found, sorted(angles), strict=True):
+        assert abs(value - sp.N(angle, 50)) < 1e-36
 
 
 @examples
@@ -126,16 +172,23 @@ def test_refused_sets_have_no_row(order, angles):
         (4, [0, 45], 3),
         (4, [0, 45, 90], 2),
         (5, [0, 60, 120], 3),
+        (6, [0, 60, 120], 4),
+        (7, [3, 20, 77, 101], 4),
+        (8, [5, 17, 60, 100], 5),
     ],
 )
 def test_family_of_given_critical_lines(order, angles, dimension):
     rows = rows_with_critical_lines(order, angles)
     assert len(rows) == dimension
-    for row in rows:
-        derivative = row.form.angular_derivative()
-        for angle in angles:
-            c, s = sp.cos(sp.pi * angle / 180), sp.sin(sp.pi * angle / 180)
-            assert sp.simplify(derivative(c, s)) == 0
+    with mpmath.workdps(60):
+        for row in rows:
+            phi = numeric_phi(row)
+            size = max(abs(p) for p in phi.values())
+            for angle in angles:
+                assert abs(derivative(phi, angle, 1)) < size * mpmath.mpf(10) ** -50
+    table = [[f(complex(p)) for p in numeric_phi(row).values() for f in (np.real, np.imag)]
+             for row in rows]  # fmt: skip
+    assert not rows or np.linalg.matrix_rank(np.array(table)) == dimension
 
 
 BOTH = {Kind.MAXIMUM, Kind.MINIMUM}
