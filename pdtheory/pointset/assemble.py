@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from concurrent.futures import ThreadPoolExecutor
+
 import numpy as np
 
 from pdtheory.conventions import wavejets_table
@@ -69,32 +71,16 @@ class Collector:
         # The rows are not copied: what a chunk has not used of them takes no memory.
         self._chunks.append((where, found.rows, base))
 
-    def field(self) -> DirectionField:
-        """Return everything that was added as one field."""
-        directions = {}
-        for j, order in enumerate(self._orders):
-            counts = self._counts[j]
-            offsets = np.concatenate(([0], np.cumsum(counts))).astype(np.int64)
-            total = int(offsets[-1])
-            columns = {name: np.empty(total) for name in _COLUMNS}
-            vector, kind = np.empty((total, 3)), np.empty(total, np.int8)
-            for where, rows, base in self._chunks:
-                here = counts[where]
-                last = np.cumsum(here)
-                target = np.repeat(offsets[where] - last + here, here) + np.arange(int(here.sum()))
-                rows = rows[base[j] : base[j] + len(target)]
-                for name, number in _COLUMNS.items():
-                    columns[name][target] = rows[:, number]
-                vector[target] = rows[:, results.VECTOR : results.VECTOR + 3]
-                kind[target] = rows[:, results.KIND]
-            directions[int(order)] = OrderDirections(
-                order=int(order),
-                offsets=offsets,
-                vector=vector,
-                kind=kind,
-                isotropic=self._isotropic[j],
-                **columns,
-            )
+    def field(self, threads: int = 1) -> DirectionField:
+        """Return everything that was added as one field.
+
+        Parameters
+        ----------
+        threads : int
+            Threads to put the orders together in.
+        """
+        with ThreadPoolExecutor(threads) as pool:
+            found = list(pool.map(self._directions, range(len(self._orders))))
         return DirectionField(
             points=self._points,
             frames=self._frames,
@@ -107,5 +93,30 @@ class Collector:
             phi=self._phi,
             phi_order=self._table[:, 0],
             phi_frequency=self._table[:, 1],
-            directions=directions,
+            directions={order.order: order for order in found},
+        )
+
+    def _directions(self, j: int) -> OrderDirections:
+        """Return the directions of one order."""
+        counts = self._counts[j]
+        offsets = np.concatenate(([0], np.cumsum(counts))).astype(np.int64)
+        total = int(offsets[-1])
+        columns = {name: np.empty(total) for name in _COLUMNS}
+        vector, kind = np.empty((total, 3)), np.empty(total, np.int8)
+        for where, rows, base in self._chunks:
+            here = counts[where]
+            last = np.cumsum(here)
+            target = np.repeat(offsets[where] - last + here, here) + np.arange(int(here.sum()))
+            rows = rows[base[j] : base[j] + len(target)]
+            for name, number in _COLUMNS.items():
+                columns[name][target] = rows[:, number]
+            vector[target] = rows[:, results.VECTOR : results.VECTOR + 3]
+            kind[target] = rows[:, results.KIND]
+        return OrderDirections(
+            order=int(self._orders[j]),
+            offsets=offsets,
+            vector=vector,
+            kind=kind,
+            isotropic=self._isotropic[j],
+            **columns,
         )

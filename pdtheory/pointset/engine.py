@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable
 from copy import copy
 from typing import Any
@@ -28,6 +29,22 @@ from pdtheory.pointset.trees import kd_tree
 PLANAR_REACH = 1.75
 #: Neighbours that memory is kept for at first.
 _CAPACITY = 1032
+
+
+class _Memory(threading.local):
+    """What one thread works in, kept from chunk to chunk: fresh memory is slow to touch first."""
+
+    def __init__(self) -> None:
+        self.workspace = make_record(WORKSPACE)
+        self.bench = make_record(BENCH)
+        self.cloud = aligned(CLOUD_ROWS, _CAPACITY)
+        self.covariance = np.empty(0)
+
+    def covariances(self, size: int, entries: int) -> FloatArray:
+        """Return an array of shape (size, entries) with any contents."""
+        if len(self.covariance) < size * entries:
+            self.covariance = np.empty(size * entries)
+        return self.covariance[: size * entries].reshape(size, entries)
 
 
 class Engine:
@@ -96,6 +113,7 @@ class Engine:
         self.queries = np.where(self._valid[:, None], queries, 0.0)
         self.references = references()
         same = np.array_equal(self.queries, points)
+        self._memory = _Memory()
         self.visit = order if same else cell_order(self._grid, self.queries)
 
     def at_degree(self, degree: int) -> Engine:
@@ -125,11 +143,12 @@ class Engine:
             radii, lists = nearest(self._tree, queries, self.choice.neighbours or 0)
             # A strided view would be another type, for which everything is compiled once more.
             radii = np.ascontiguousarray(radii)
-        jets = make_jets(size, self.orders, self._columns, self.settings.uncertainty)
+        memory = self._memory
+        entries = int(((self.orders + 1) ** 2).sum()) if self.settings.uncertainty else 0
+        covariance = memory.covariances(size, entries)
+        jets = make_jets(size, self.orders, self._columns, covariance)
         directions = make_directions(size, self.orders)
         tables = make_tables()
-        workspace = make_record(WORKSPACE)
-        capacity = _CAPACITY
         begin = 0
         while True:
             done = fit_chunk(
@@ -145,8 +164,8 @@ class Engine:
                 self.settings,
                 self.settings.robust or None,
                 tables,
-                workspace,
-                aligned(CLOUD_ROWS, capacity),
+                memory.workspace,
+                memory.cloud,
                 flag,
                 begin,
                 jets,
@@ -155,14 +174,16 @@ class Engine:
                 break
             begin = -1 - done
             capacity = 2 * int(jets.neighbours[begin]) // LANES * LANES
+            memory.cloud = aligned(CLOUD_ROWS, capacity)
         find_directions(
             jets,
             radii,
             self.orders,
             self.rows(size),
             tables,
-            make_record(BENCH),
+            memory.bench,
             flag,
             directions,
         )
-        return radii, Output(jets, directions)
+        # The next chunk overwrites the covariances.
+        return radii, Output(jets._replace(covariance=covariance[:0]), directions)

@@ -113,7 +113,7 @@ def estimate_directions(
     chunks = run_spans(engine.work, todo, run.threads, run.progress, "estimating directions")
     for start, stop, (radii, output) in chunks:
         collector.add(engine.visit[start:stop], radii, output, engine.rows(stop - start))
-    result = collector.field()
+    result = collector.field(run.threads)
     refuse_nothing(result.status, result.neighbours, engine)
     return result
 

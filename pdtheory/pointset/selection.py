@@ -190,7 +190,7 @@ class Selector:
         """Return the output with the rows of the chosen candidate at each point."""
         size = len(chosen)
         columns = len(wavejets_table(self.degree))
-        jets = make_jets(size, self.orders, columns, uncertainty=False)
+        jets = make_jets(size, self.orders, columns, np.empty((size, 0)))
         merged = make_directions(size, self.orders)
         base = self.rows(size)
         for number, result in enumerate(results):

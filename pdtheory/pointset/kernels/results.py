@@ -42,9 +42,8 @@ class Jets(NamedTuple):
     covariance: Any
 
 
-def make_jets(size: int, orders: Any, columns: int, uncertainty: bool) -> Jets:
-    """Allocate results for `size` points."""
-    entries = int(((orders + 1) ** 2).sum()) if uncertainty else 0
+def make_jets(size: int, orders: Any, columns: int, covariance: Any) -> Jets:
+    """Allocate results for `size` points, but for the covariances."""
     return Jets(
         np.full((size, 3, 3), np.nan),
         np.zeros(size, np.int64),
@@ -56,7 +55,7 @@ def make_jets(size: int, orders: Any, columns: int, uncertainty: bool) -> Jets:
         np.full((size, columns), np.nan, np.complex128),
         np.empty((size, 2)),
         np.empty((size, len(orders))),
-        np.empty((size, entries)),
+        covariance,
     )
 
 
