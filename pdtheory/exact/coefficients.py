@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, Final
 
 import numpy as np
@@ -21,11 +22,27 @@ def check_order(order: int, least: int = 0) -> int:
     InputError
         If it is below `least` or above `MAX_ORDER`.
     """
-    if int(order) != order or not least <= order <= MAX_ORDER:
-        raise InputError(
-            f"The order is {order}; it must be an integer from {least} to {MAX_ORDER}."
-        )
-    return int(order)
+    try:
+        if int(order) == order and least <= order <= MAX_ORDER:
+            return int(order)
+    except (TypeError, ValueError, OverflowError):
+        pass
+    raise InputError(f"The order is {order!r}; it must be an integer from {least} to {MAX_ORDER}.")
+
+
+def exact_tuple(values: Sequence[Any], count: int, what: str) -> tuple[Any, ...]:
+    """Return exact coordinates, or variables, if their number is right.
+
+    Raises
+    ------
+    InputError
+        If it is not.
+    """
+    listed = tuple(values)
+    if len(listed) != count:
+        shown = ", ".join(str(v) for v in listed)
+        raise InputError(f"The {what} needs {count} entries, but ({shown}) has {len(listed)}.")
+    return tuple(exact(v) for v in listed)
 
 
 def exact(value: Any) -> Any:

@@ -14,7 +14,7 @@ from pdtheory.exact.coefficients import exact
 from pdtheory.exact.enclosing import is_finite
 from pdtheory.exact.fields import Field
 from pdtheory.exact.powerseries import Series
-from pdtheory.exact.zeros import is_zero
+from pdtheory.exact.zeros import is_real, is_zero
 
 _Z = sp.Symbol("z")
 
@@ -121,13 +121,20 @@ class Expansion:
         for j in range(self.degree + 1):
             value = _derivative(function, j).subs(_Z, start) / factorial(j)
             if value.has(sp.zoo, sp.nan, sp.oo, -sp.oo, sp.Subs, sp.Derivative):
-                place = ", ".join(f"{s} = {v}" for s, v in self.point.items())
-                raise ExpressionError(
-                    f"{node} has no derivative of order {j} at {place}, where its argument is "
-                    f"{start}; choose another point."
-                )
+                raise self._refusal(node, f"has no derivative of order {j}", start)
             coefficients.append(sp.expand(value))
+        # The value and the slope leave the real numbers where the function is not defined.
+        if _counts_as_real(start, otherwise=False) and not all(
+            _counts_as_real(c, otherwise=True) for c in coefficients[:2]
+        ):
+            raise self._refusal(node, "is not real", start)
         self._univariate[node] = (argument, coefficients)
+
+    def _refusal(self, node: Any, what: str, start: Any) -> ExpressionError:
+        place = ", ".join(f"{s} = {v}" for s, v in self.point.items())
+        return ExpressionError(
+            f"{node} {what} at {place}, where its argument is {start}; choose another point."
+        )
 
     def _find_needed(self, node: Any, constant_matters: bool) -> None:
         variables = set(self.point)
@@ -144,6 +151,13 @@ class Expansion:
             for child in moving:
                 product = len(moving) > 1 or node.is_Pow
                 self._find_needed(child, constant_matters or product)
+
+
+def _counts_as_real(value: Any, *, otherwise: bool) -> bool:
+    """Return whether a value is real; with symbols of unknown kind what is passed for them."""
+    if not value.free_symbols:
+        return is_real(value)
+    return otherwise if value.is_real is None else bool(value.is_real)
 
 
 @lru_cache(maxsize=4096)

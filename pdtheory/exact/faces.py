@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any, Self
 import sympy as sp
 
 from pdtheory.errors import InputError
-from pdtheory.exact.coefficients import check_order, exact, tidy
+from pdtheory.exact.coefficients import check_order, exact, exact_tuple, tidy
 from pdtheory.exact.zeros import is_zero
 
 if TYPE_CHECKING:
@@ -100,13 +100,13 @@ class Face(ABC):
         Raises
         ------
         InputError
-            If `times` is not between 0 and k.
+            If `times` is not between 0 and k, or v has not two coordinates.
         """
         from pdtheory.exact.tensor import SymmetricTensor
 
         if not 0 <= times <= self.order:
             raise InputError(f"A tensor of order {self.order} cannot be contracted {times} times.")
-        x, y = (exact(c) for c in v)
+        x, y = exact_tuple(v, 2, "vector")
         t = list(self.tensor.components)
         for _ in range(times):
             t = [tidy(x * a + y * b) for a, b in pairwise(t)]

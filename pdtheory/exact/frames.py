@@ -8,7 +8,7 @@ from typing import Any
 import sympy as sp
 
 from pdtheory.errors import InputError
-from pdtheory.exact.coefficients import exact, tidy
+from pdtheory.exact.coefficients import exact_tuple, tidy
 from pdtheory.exact.separation import extent
 from pdtheory.exact.zeros import is_zero
 
@@ -74,9 +74,7 @@ def triple(values: Sequence[Any], what: str) -> Vector:
     InputError
         If there are not three.
     """
-    if len(values) != 3:
-        raise InputError(f"The {what} needs three coordinates, not {len(values)}.")
-    x, y, z = (exact(c) for c in values)
+    x, y, z = exact_tuple(values, 3, what)
     return x, y, z
 
 

@@ -14,7 +14,7 @@ from typing import Any
 import sympy as sp
 
 from pdtheory.errors import ExpressionError, InputError
-from pdtheory.exact.coefficients import check_order, exact, tidy
+from pdtheory.exact.coefficients import check_order, exact, exact_tuple, tidy
 from pdtheory.exact.expansion import Expansion
 from pdtheory.exact.faces import BinaryForm
 from pdtheory.exact.fields import Field
@@ -64,8 +64,8 @@ def explicit_jet(
     ExpressionError, InputError
         As for :func:`implicit_jet`.
     """
-    f, (x, y) = exact(f), variables
-    x0, y0 = (exact(c) for c in at)
+    f, (x, y) = exact(f), exact_tuple(variables, 2, "list of variables")
+    x0, y0 = exact_tuple(at, 2, "point")
     z0 = tidy(f.subs({x: x0, y: y0}, simultaneous=True))
     if z0.has(sp.zoo, sp.nan, sp.oo, -sp.oo):
         raise ExpressionError(f"{f} has no value at {x} = {x0}, {y} = {y0}; choose another point.")
@@ -110,8 +110,7 @@ def implicit_jet(
     """
     degree = check_order(degree, 1)
     point = triple(at, "point")
-    if len(variables) != 3:
-        raise InputError(f"An implicit surface needs three variables, not {variables}.")
+    variables = exact_tuple(variables, 3, "list of variables")
     F, place = exact(F), dict(zip(variables, point, strict=True))
     expansion = Expansion(F, place, degree)
     value = F.subs(place, simultaneous=True)
@@ -177,8 +176,8 @@ def parametric_jet(
     """
     degree = check_order(degree, 1)
     coordinates = triple(X, "patch")
-    u, v = variables
-    place = {u: exact(at[0]), v: exact(at[1])}
+    u, v = exact_tuple(variables, 2, "list of parameters")
+    place = dict(zip((u, v), exact_tuple(at, 2, "point"), strict=True))
     expansions = [Expansion(c, place, degree, constant_matters=False) for c in coordinates]
     rows = [_derivatives(c, place) for c in coordinates]
     first, second = ([row[i] for row in rows] for i in (0, 1))

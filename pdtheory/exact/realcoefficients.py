@@ -14,16 +14,16 @@ from typing import Any, Final
 
 import sympy as sp
 
-from pdtheory.errors import ComputationError, InputError
+from pdtheory.errors import InputError
 from pdtheory.exact.algebraic import RealAlgebraic, primitive
 from pdtheory.exact.balls import engine, horner
-from pdtheory.exact.enclosing import enclose, enclose_real, real_balls
+from pdtheory.exact.enclosing import enclose_real, real_balls
 from pdtheory.exact.independent import Independent
 from pdtheory.exact.intervals import Enclosure
 from pdtheory.exact.numberfield import in_number_field
 from pdtheory.exact.separation import extent, is_known_algebraic
 from pdtheory.exact.texts import size_of
-from pdtheory.exact.zeros import is_zero, sign
+from pdtheory.exact.zeros import is_real, is_zero, sign
 
 #: Total size of transcendental coefficients in which a common factor is looked for.
 LONGEST_WITH_FACTOR: Final = 400
@@ -54,7 +54,7 @@ class Coefficients:
                 raise InputError(
                     f"The coefficient {e} depends on {names}; put numbers in place of symbols."
                 )
-            if not _is_real(e):
+            if not is_real(e):
                 raise InputError(f"The coefficient {e} is not real; the form must be real.")
 
     @cached_property
@@ -159,23 +159,6 @@ class Coefficients:
             return [number(Enclosure(r, r)) for r in self.rationals]
         a = number(self.generator.at_precision(bits))
         return [horner([number(Enclosure(c, c)) for c in p], a) for p in self.in_generator]
-
-
-def _is_real(number: Any) -> bool:
-    """Decide whether a constant is real."""
-    if number.is_real is not None:
-        return bool(number.is_real)
-    for bits in (128, 512):
-        found = enclose(number, bits)
-        if found is not None and found.imaginary.sign is not None:
-            # An imaginary part that is an exact zero comes from real functions of real numbers.
-            return found.imaginary.sign == 0
-    try:
-        return is_zero(sp.im(number))
-    except ComputationError as error:
-        raise InputError(
-            f"Whether the coefficient {number} is real could not be proved."
-        ) from error
 
 
 def _rationals(leading_first: Sequence[Any]) -> list[Any]:

@@ -8,7 +8,7 @@ from typing import Any, Final
 
 import sympy as sp
 
-from pdtheory.errors import ComputationError
+from pdtheory.errors import ComputationError, InputError
 from pdtheory.exact.intervals import Enclosure
 
 #: Longest text of an exact number that is shown.
@@ -34,7 +34,15 @@ def precisions(first: int = FIRST_BITS) -> Iterator[int]:
 
 
 def bits_for(digits: int) -> int:
-    """Return a working precision with which to start for this many decimal digits."""
+    """Return a working precision with which to start for this many decimal digits.
+
+    Raises
+    ------
+    InputError
+        If the number of digits is below 1.
+    """
+    if digits < 1:
+        raise InputError(f"The number of digits is {digits}; it must be at least 1.")
     return max(FIRST_BITS, int(digits * 3.33) + 48)
 
 
@@ -94,6 +102,7 @@ def to_float(enclose: Callable[[int], Enclosure], digits: int) -> Any:
     digits
         Number of significant digits.
     """
+    bits_for(digits)
     asked = digits + 3
     while True:
         found = enclose(asked)

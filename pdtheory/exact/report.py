@@ -10,7 +10,7 @@ import sympy as sp
 
 from pdtheory.errors import ComputationError, InputError
 from pdtheory.exact.characteristic import characteristic_polynomial
-from pdtheory.exact.coefficients import MAX_ORDER
+from pdtheory.exact.coefficients import MAX_ORDER, check_order
 from pdtheory.exact.complexpairs import complex_eigenpairs
 from pdtheory.exact.constantroots import RealConstant
 from pdtheory.exact.eigenpairs import EigenPairs, real_eigenpairs
@@ -72,8 +72,7 @@ def orders_of(
         If every order from 1 on vanishes, or an order is out of bounds.
     """
     if order is not None:
-        if order < 1:
-            raise InputError(f"The order is {order}; it must be an integer from 1 to {MAX_ORDER}.")
+        check_order(order, 1)
         return [taylor_forms(expression, variables, order, at)[order]]
     bound = degree_bound(expression, variables)
     if bound is not None and bound > MAX_ORDER:
@@ -220,6 +219,8 @@ def short_number(real: Any, imaginary: Any = sp.S.Zero, length: int = 40) -> str
 
 
 def _rounded(value: Any, digits: int = 6) -> Any:
-    if value.is_Integer or is_zero(value):
-        return value if value.is_Integer else sp.Integer(0)
+    if value.is_Integer and abs(value) < 10**digits:
+        return value
+    if is_zero(value):
+        return sp.Integer(0)
     return to_float(RealConstant(value).enclosure, digits)

@@ -13,7 +13,7 @@ from typing import Any, Final
 
 import sympy as sp
 
-from pdtheory.errors import ComputationError
+from pdtheory.errors import ComputationError, InputError
 from pdtheory.exact.enclosing import enclose
 from pdtheory.exact.exponentials import Root, Term, TooLong, numerator_terms
 from pdtheory.exact.realnumber import precisions
@@ -85,6 +85,29 @@ def sign(value: Any) -> int:
         if found is not None and found.imaginary.sign:
             break
     raise ComputationError(f"The number {_shown(value)} is not real and has no sign.")
+
+
+def is_real(number: Any) -> bool:
+    """Decide whether a constant is real.
+
+    Raises
+    ------
+    InputError
+        If it could not be proved.
+    """
+    if number.is_real is not None:
+        return bool(number.is_real)
+    for bits in (128, 512):
+        found = enclose(number, bits)
+        if found is not None and found.imaginary.sign is not None:
+            # An imaginary part that is an exact zero comes from real functions of real numbers.
+            return found.imaginary.sign == 0
+    try:
+        return is_zero(sp.im(number))
+    except ComputationError as error:
+        raise InputError(
+            f"Whether the coefficient {number} is real could not be proved."
+        ) from error
 
 
 def _excludes_zero(value: Any, bits: int) -> bool:

@@ -1,6 +1,6 @@
 """One object, three faces: conversions, contraction, rotation, gradient."""
 
-from math import cos, factorial, sin
+from math import cos, factorial, inf, nan, sin
 
 import numpy as np
 import pytest
@@ -9,8 +9,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pdtheory.errors import InputError
-from pdtheory.exact import BinaryForm, SymmetricTensor, WavejetsRow
-from pdtheory.exact.coefficients import MAX_ORDER
+from pdtheory.exact import (
+    BinaryForm,
+    SymmetricTensor,
+    WavejetsRow,
+    complex_eigenpairs,
+    explicit_jet,
+    implicit_jet,
+    parametric_jet,
+)
+from pdtheory.exact.coefficients import MAX_ORDER, check_order
 from pdtheory.testing.profiles import examples
 from pdtheory.testing.strategies import any_forms, forms
 
@@ -140,3 +148,35 @@ def test_latex_for_notebooks():
     for face in (BinaryForm([1, 2, 3]), SymmetricTensor([1, 2, 3]), WavejetsRow(2, {2: sp.I})):
         assert face._repr_latex_().startswith("$")
         assert face._repr_latex_().endswith("$")
+
+
+@pytest.mark.parametrize("order", [None, nan, inf, "3", 2.5, -1, 257, 10**100])
+def test_an_order_that_is_none_is_refused(order):
+    with pytest.raises(InputError, match=r"The order is .*; it must be an integer from 1 to 256"):
+        check_order(order, 1)
+
+
+@pytest.mark.parametrize("digits", [0, -5])
+def test_no_digits_are_refused(digits):
+    form = BinaryForm([1, 2, 3, 5])
+    real, other = form.eigenpairs()[0], complex_eigenpairs(form)[0]
+    for ask in (real.angle_degrees, real.eigenvalue_float, real.angle_enclosure,
+                other.vector, other.eigenvalue, other.vector_enclosure):  # fmt: skip
+        with pytest.raises(InputError, match=f"number of digits is {digits}"):
+            ask(digits)
+
+
+def test_points_and_vectors_of_another_dimension_are_refused():
+    z = sp.Symbol("z")
+    tensor = SymmetricTensor([1, 2, 3])
+    for wrong in (
+        lambda: tensor.contract((1, 0, 5)),
+        lambda: explicit_jet(x, (x,), 2),
+        lambda: explicit_jet(x, (x, y), 2, (1, 2, 3)),
+        lambda: implicit_jet(x, (x, y), 2, (0, 0, 0)),
+        lambda: implicit_jet(x, (x, y, z), 2, (0, 0)),
+        lambda: parametric_jet((x, y, 0), (x, y), 2, (0,)),
+        lambda: parametric_jet((x, y), (x, y), 2, (0, 0)),
+    ):
+        with pytest.raises(InputError, match=r"needs \d entries, but \(.*\) has \d"):
+            wrong()

@@ -213,8 +213,8 @@ def test_numeric_tables():
     [
         (lambda: implicit_jet(TORUS, (x, y, z), 3, (1, 1, 1)), InputError, "not on the surface"),
         (lambda: implicit_jet(x**2 + y**2 - z**2, (x, y, z), 3, (0, 0, 0)), InputError, "singular"),
-        (lambda: implicit_jet(TORUS, (x, y, z), 3, (3, 0)), InputError, "three coordinates"),
-        (lambda: implicit_jet(TORUS, (x, y), 3, (3, 0, 0)), InputError, "three variables"),
+        (lambda: implicit_jet(TORUS, (x, y, z), 3, (3, 0)), InputError, "needs 3 entries"),
+        (lambda: implicit_jet(TORUS, (x, y), 3, (3, 0, 0)), InputError, "needs 3 entries"),
         (lambda: implicit_jet(TORUS, (x, y, z), 0, (3, 0, 0)), InputError, "0"),
         (lambda: implicit_jet(TORUS, (x, y, z), 2, (3, 0, 0), tangent=(1, 0, 0)), InputError,
          "normal to the surface"),
