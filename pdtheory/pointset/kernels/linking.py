@@ -81,7 +81,9 @@ class Whole(JITCodeLibrary):
                     waiting += library._linking_libraries
         for library in found:
             if isinstance(library, Part):
-                self._reload_init.update(library._reload_init)
+                # What a library does when it is loaded; Numba has it since 0.63.
+                if hasattr(self, "_reload_init"):
+                    self._reload_init.update(library._reload_init)
                 self._final_module.link_in(library._final_module, preserve=True)
         self._linking_libraries = [one for one in found if not isinstance(one, Part)]
         super().finalize()
