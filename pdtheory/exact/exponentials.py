@@ -12,29 +12,19 @@ from collections.abc import Callable
 from typing import Any, Final, NamedTuple
 
 import sympy as sp
-from sympy.polys.polyerrors import CoercionFailed
 
-#: Terms that a sum may have before the normal form is given up.
-MOST_TERMS: Final = 50_000
-
-#: Sorted pairs (basic exponent or root, power); a product of exponentials and roots.
-Monomial = tuple[tuple[Any, Any], ...]
-#: Coefficients by monomials: Gaussian rationals of SymPy's domain, or expanded expressions.
-Sum = dict[Monomial, Any]
-
-_GAUSS: Final = sp.QQ_I
-_ONE: Final[Sum] = {(): _GAUSS.one}
-
-
-class TooLong(Exception):
-    """The normal form has more than `MOST_TERMS` terms."""
-
-
-class Root(NamedTuple):
-    """The root base^(1/order) of a sum, as a factor of monomials."""
-
-    base: Any
-    order: int
+from pdtheory.exact.sums import (
+    GAUSS,
+    ONE,
+    Monomial,
+    Root,
+    Sum,
+    added,
+    coefficient_of,
+    expression_of,
+    monomial_of,
+    product,
+)
 
 
 class Term(NamedTuple):
@@ -81,7 +71,7 @@ def numerator_terms(expression: Any) -> list[Term]:
     for monomial, c in found.items():
         exponent = sum((e * _rational(p) for e, p in monomial if not _is_root(e)), sp.Integer(0))
         roots = {e: int(p) for e, p in monomial if _is_root(e)}
-        terms.append(Term(_expression(c), exponent, roots))
+        terms.append(Term(expression_of(c), exponent, roots))
     return terms
 
 
@@ -109,13 +99,13 @@ class _Normal:
         if node.is_Add:
             return self._sum([self.of(part) for part in node.args])
         if node.is_Mul:
-            result = _Quotient(_ONE, {})
+            result = _Quotient(ONE, {})
             for part in node.args:
                 result = self._times(result, self.of(part))
             return result
         if isinstance(node, sp.exp) or node is sp.E:
             argument = sp.Integer(1) if node is sp.E else sp.expand(node.args[0])
-            return _Quotient({_exponent(argument): _GAUSS.one}, {})
+            return _Quotient({_exponent(argument): GAUSS.one}, {})
         if node.is_Pow and node.exp.is_Integer:
             return self._power(node.base, int(node.exp))
         if node.is_Pow and node.exp.is_Rational and not node.is_algebraic:
@@ -128,7 +118,7 @@ class _Normal:
             key = frozenset(below.items())
             self.sums[key] = below
             return _Quotient(above, {key: 1})
-        return _Quotient({(): _coefficient(node)} if node else {}, {})
+        return _Quotient({(): coefficient_of(node)} if node else {}, {})
 
     def _sum(self, parts: list[_Quotient]) -> _Quotient:
         common: dict[Any, int] = {}
@@ -140,15 +130,15 @@ class _Normal:
             above = part.above
             for key, power in common.items():
                 for _ in range(power - part.below.get(key, 0)):
-                    above = _product(above, self.sums[key])
-            total = _add(total, above)
+                    above = product(above, self.sums[key])
+            total = added(total, above)
         return self._reduced(_Quotient(total, common))
 
     def _times(self, a: _Quotient, b: _Quotient) -> _Quotient:
         below = dict(a.below)
         for key, power in b.below.items():
             below[key] = below.get(key, 0) + power
-        return self._reduced(_Quotient(_product(a.above, b.above), below))
+        return self._reduced(_Quotient(product(a.above, b.above), below))
 
     def _reduced(self, value: _Quotient) -> _Quotient:
         """Replace R^q by its meaning until no root R has a power of its index or above."""
@@ -164,11 +154,11 @@ class _Normal:
                 powers = dict(monomial)
                 if powers.get(root, 0) >= root.order:
                     powers[root] -= root.order
-                    high[_sorted(powers)] = c
+                    high[monomial_of(powers)] = c
                 else:
                     low[monomial] = c
             base = self.meaning[root]
-            parts = [_Quotient(_product(high, base.above), base.below), _Quotient(low, {})]
+            parts = [_Quotient(product(high, base.above), base.below), _Quotient(low, {})]
             joined = self._sum(parts) if low else parts[0]
             below = dict(value.below)
             for key, power in joined.below.items():
@@ -176,15 +166,15 @@ class _Normal:
             value = _Quotient(joined.above, below)
 
     def _inverse(self, value: _Quotient, key: Any) -> _Quotient:
-        above = _ONE
+        above = ONE
         for below, power in value.below.items():
             for _ in range(power):
-                above = _product(above, self.sums[below])
+                above = product(above, self.sums[below])
         if len(value.above) == 1:
             ((monomial, c),) = value.above.items()
             if not isinstance(c, sp.Basic) and not any(_is_root(e) for e, _ in monomial):
-                inverse = {tuple((e, -p) for e, p in monomial): _GAUSS.one / c}
-                return _Quotient(_product(above, inverse), {})
+                inverse = {tuple((e, -p) for e, p in monomial): GAUSS.one / c}
+                return _Quotient(product(above, inverse), {})
         self.sums[key] = value.above
         return self._reduced(_Quotient(above, {key: 1}))
 
@@ -192,7 +182,7 @@ class _Normal:
         factor = self.of(base)
         if exponent < 0:
             factor = self._inverse(factor, base)
-        result = _Quotient(_ONE, {})
+        result = _Quotient(ONE, {})
         for _ in range(abs(exponent)):
             result = self._times(result, factor)
         return result
@@ -202,7 +192,7 @@ class _Normal:
         whole, part = divmod(power, index)
         root = Root(base, index)
         self.meaning[root] = self.of(base)
-        return self._times(self._power(base, whole), _Quotient({((root, part),): _GAUSS.one}, {}))
+        return self._times(self._power(base, whole), _Quotient({((root, part),): GAUSS.one}, {}))
 
 
 def _exponent(argument: Any) -> Monomial:
@@ -211,77 +201,18 @@ def _exponent(argument: Any) -> Monomial:
     for term in sp.Add.make_args(argument):
         c, basic = term.as_coeff_Mul()
         powers[basic] = powers.get(basic, sp.QQ(0)) + sp.QQ(int(c.p), int(c.q))
-    return _sorted(powers)
-
-
-def _sorted(powers: dict[Any, Any]) -> Monomial:
-    return tuple(sorted(((e, p) for e, p in powers.items() if p), key=lambda pair: hash(pair[0])))
-
-
-def _coefficient(value: Any) -> Any:
-    try:
-        return _GAUSS.from_sympy(value)
-    except CoercionFailed:
-        return sp.expand(value)
-
-
-def _expression(c: Any) -> Any:
-    return c if isinstance(c, sp.Basic) else _GAUSS.to_sympy(c)
+    return monomial_of(powers)
 
 
 def _rational(power: Any) -> Any:
     return sp.Rational(int(power.numerator), int(power.denominator))
 
 
-def _joined(a: Any, b: Any, *, times: bool) -> Any:
-    """Return the sum or product of two coefficients."""
-    if isinstance(a, sp.Basic) or isinstance(b, sp.Basic):
-        a, b = _expression(a), _expression(b)
-        return sp.expand(a * b if times else a + b)
-    return a * b if times else a + b
-
-
-def _add(a: Sum, b: Sum) -> Sum:
-    total = dict(a)
-    for monomial, c in b.items():
-        if monomial in total:
-            new = _joined(total.pop(monomial), c, times=False)
-            if new:
-                total[monomial] = new
-        else:
-            total[monomial] = c
-    return total
-
-
-def _product(a: Sum, b: Sum) -> Sum:
-    if a is _ONE or b is _ONE:
-        return b if a is _ONE else a
-    if len(a) * len(b) > 50 * MOST_TERMS:
-        raise TooLong
-    total: Sum = {}
-    for left, c in a.items():
-        for right, d in b.items():
-            monomial = left or right
-            if left and right:
-                powers = dict(left)
-                for e, p in right:
-                    powers[e] = powers.get(e, 0) + p
-                monomial = _sorted(powers)
-            value = _joined(c, d, times=True)
-            if monomial in total:
-                value = _joined(total[monomial], value, times=False)
-            total[monomial] = value
-    result = {m: c for m, c in total.items() if c}
-    if len(result) > MOST_TERMS:
-        raise TooLong
-    return result
-
-
 def _pair(argument: Any, plus: Any, minus: Any) -> Sum:
     """Return plus exp(argument) + minus exp(-argument)."""
-    return _add(
-        {_exponent(argument): _coefficient(sp.sympify(plus, strict=True))},
-        {_exponent(sp.expand(-argument)): _coefficient(sp.sympify(minus, strict=True))},
+    return added(
+        {_exponent(argument): coefficient_of(sp.sympify(plus, strict=True))},
+        {_exponent(sp.expand(-argument)): coefficient_of(sp.sympify(minus, strict=True))},
     )
 
 

@@ -15,9 +15,10 @@ import sympy as sp
 
 from pdtheory.errors import ComputationError, InputError
 from pdtheory.exact.enclosing import enclose
-from pdtheory.exact.exponentials import Root, Term, TooLong, numerator_terms
+from pdtheory.exact.exponentials import Term, numerator_terms
 from pdtheory.exact.realnumber import precisions
 from pdtheory.exact.separation import separation_bits
+from pdtheory.exact.sums import Root, TooLong
 from pdtheory.exact.texts import size_of
 
 #: Bits of the enclosures in which a constant may show that it is not zero, before a proof of zero
