@@ -64,16 +64,36 @@ def median_time(action, clock=time.process_time) -> float:
     return statistics.median(times)
 
 
-def ours(points, normals, neighbours, degree, orders, queries=1000, **options) -> float:
-    """Seconds per point, end to end, one thread; the cost that does not grow is taken off."""
+def once(action, clock=time.process_time) -> float:
+    """Seconds that one call takes."""
+    start = clock()
+    action()
+    return clock() - start
+
+
+def alternate(*actions) -> list[list[float]]:
+    """Results of each action, called in turns.
+
+    The speed of a shared machine changes from second to second, so what is compared must alternate.
+    """
+    for action in actions:
+        action()
+    rounds = [[action() for action in actions] for _ in range(REPEATS)]
+    return [list(results) for results in zip(*rounds, strict=True)]
+
+
+def ours(points, normals, neighbours, degree, orders, queries=1000, **options):
+    """Return a function for seconds per point, end to end, in one thread.
+
+    The cost that does not grow with the queries is taken off.
+    """
     radius = radius_for(neighbours, len(points))
     how = {"radius": radius, "degree": degree, "orders": orders, "normals": normals, "threads": 1}
 
     def run(count):
-        return lambda: estimate_directions(points, queries=np.arange(count), **(how | options))
+        estimate_directions(points, queries=np.arange(count), **(how | options))
 
-    run(10)()
-    return (median_time(run(queries)) - median_time(run(10))) / (queries - 10)
+    return lambda: (once(lambda: run(queries)) - once(lambda: run(10))) / (queries - 10)
 
 
 def build_cgal(folder: Path) -> Path | None:
@@ -88,8 +108,8 @@ def build_cgal(folder: Path) -> Path | None:
     return program
 
 
-def cgal(program: Path, points, neighbours: int, degree: int, solver: str, queries: int) -> float:
-    """Seconds per point of CGAL, fitting only, on the neighbourhoods of the same radius."""
+def cgal(program: Path, points, neighbours: int, degree: int, solver: str, queries: int):
+    """Return a function for seconds per point of CGAL, fitting only, on the same neighbourhoods."""
     tree = cKDTree(points)
     lists = tree.query_ball_point(points[:queries], radius_for(neighbours, len(points)))
     text = [str(queries)]
@@ -97,14 +117,15 @@ def cgal(program: Path, points, neighbours: int, degree: int, solver: str, queri
         members = [i, *(j for j in members if j != i)]
         text.append(str(len(members)))
         text += [" ".join(map(repr, map(float, points[j]))) for j in members]
-    times = []
-    for _ in range(REPEATS):
+
+    def run() -> float:
         done = subprocess.run(
             [program, str(degree), solver], input="\n".join(text), capture_output=True, text=True,
             check=True,
         )  # fmt: skip
-        times.append(float(done.stderr) / queries)
-    return statistics.median(times)
+        return float(done.stderr) / queries
+
+    return run
 
 
 def torus_mesh(count: int) -> tuple[np.ndarray, np.ndarray]:
@@ -126,14 +147,12 @@ IGL = """
 import json, sys, time
 import igl, numpy as np
 data = np.load(sys.argv[1])
-times = []
-for _ in range(5):
-    start = time.process_time()
-    result = igl.principal_curvature(data["points"], data["faces"], radius=5)
-    times.append(time.process_time() - start)
+start = time.process_time()
+result = igl.principal_curvature(data["points"], data["faces"], radius=5)
+seconds = time.process_time() - start
 curvatures = np.sort(np.column_stack([np.ravel(result[2]), np.ravel(result[3])]), axis=1)
 np.save(sys.argv[2], curvatures)
-print(json.dumps(sorted(times)[2] / len(data["points"])))
+print(json.dumps(seconds / len(data["points"])))
 """
 
 
@@ -141,18 +160,25 @@ def igl_row(python: str, folder: Path) -> dict[str, float]:
     """libigl with 5 rings against K = 4 with 100 neighbours on average, on one mesh."""
     points, faces = torus_mesh(140)
     np.savez(folder / "mesh.npz", points=points, faces=faces)
-    done = subprocess.run(
-        [python, "-c", IGL, str(folder / "mesh.npz"), str(folder / "igl.npy")],
-        capture_output=True, text=True, check=True,
-    )  # fmt: skip
-    theirs = json.loads(done.stdout)
+
+    def theirs() -> float:
+        done = subprocess.run(
+            [python, "-c", IGL, str(folder / "mesh.npz"), str(folder / "igl.npy")],
+            capture_output=True, text=True, check=True,
+        )  # fmt: skip
+        return float(json.loads(done.stdout))
+
     normals = points - np.column_stack(
         [points[:, :2] / np.linalg.norm(points[:, :2], axis=1, keepdims=True), 0 * points[:, :1]]
     )
     radius = np.mean(cKDTree(points).query(points[::50], k=[100])[0])
     how = {"radius": radius, "degree": 4, "orders": (2,), "normals": normals, "threads": 1}
     field = estimate_directions(points, uncertainty=False, **how)
-    seconds = median_time(lambda: estimate_directions(points, uncertainty=False, **how))
+
+    def run() -> None:
+        estimate_directions(points, uncertainty=False, **how)
+
+    peer, mine = alternate(theirs, lambda: once(run) / len(points))
     ring = np.linalg.norm(points[:, :2], axis=1)
     exact = np.sort(np.column_stack([np.full(len(points), 2.5), (ring - 1) / 0.4 / ring]), axis=1)
     curvatures = np.load(folder / "igl.npy")
@@ -162,9 +188,9 @@ def igl_row(python: str, folder: Path) -> dict[str, float]:
         [field[2].maxima.eigenvalue[::2], field[2].minima.eigenvalue[::2]]), axis=1)  # fmt: skip
     return {
         "neighbours": float(field.neighbours.mean()),
-        "libigl us": 1e6 * theirs,
-        "ours us": 1e6 * seconds / len(points),
-        "ratio": theirs * len(points) / seconds,
+        "libigl us": 1e6 * statistics.median(peer),
+        "ours us": 1e6 * statistics.median(mine),
+        **spread_of_ratio(peer, mine),
         "libigl median error": float(np.median(np.abs(curvatures - exact))),
         "ours median error": float(np.median(np.abs(found - exact))),
     }
@@ -197,6 +223,12 @@ def dgemm_rate() -> float:
     """Floating-point operations per second of a matrix product, by processor time."""
     a = np.random.default_rng(0).random((700, 700))
     return 2 * 700**3 / median_time(lambda: a @ a)
+
+
+def spread_of_ratio(above: list[float], below: list[float]) -> dict[str, float]:
+    """The median ratio of paired timings, the smallest and the largest."""
+    ratios = [a / b for a, b in zip(above, below, strict=True)]
+    return {"ratio": statistics.median(ratios), "from": min(ratios), "to": max(ratios)}
 
 
 def show(name: str, row: dict[str, float], goal: str = "", met: bool | None = None) -> None:
@@ -318,11 +350,15 @@ def main() -> None:
         ("K=4 N=300, CGAL SVD", 300, 4, (2, 3, 4), "svd", 30),
     ):
         fit_only = {"frame": "principal"} if orders == (1,) else {}
-        mine = ours(points, normals, count, degree, orders, **plain, **fit_only)
+        actions = [ours(points, normals, count, degree, orders, **plain, **fit_only)]
+        if program is not None:
+            actions.append(cgal(program, points, count, degree, solver, options.queries))
+        times = alternate(*actions)
+        mine = statistics.median(times[0])
         row = {"ours us": 1e6 * mine}
         if program is not None:
-            theirs = cgal(program, points, count, degree, solver, options.queries)
-            row |= {"CGAL us": 1e6 * theirs, "ratio": theirs / mine}
+            row |= {"CGAL us": 1e6 * statistics.median(times[1])}
+            row |= spread_of_ratio(times[1], times[0])
         met = row["ratio"] >= least if "ratio" in row else None
         show(name, row, f">= {least}", met)
         if orders == (1,):
@@ -334,25 +370,29 @@ def main() -> None:
         row = igl_row(options.peers, options.build)
         better = row["ours median error"] < row["libigl median error"]
         show("K=4 N=100, libigl 5 rings", row, ">= 3, smaller error", row["ratio"] >= 3 and better)
-    bars = ours(points, normals, 300, 10, ORDERS)
-    bare = ours(points, normals, 300, 10, ORDERS, **plain)
-    show("error bars, K=10 N=300", {"us with": 1e6 * bars, "us without": 1e6 * bare})
-    robust = ours(points, normals, 300, 10, ORDERS, queries=200, norm="l1", **plain)
-    ratio = robust / bare
-    show("l1 over l2, K=10 N=300", {"us": 1e6 * robust, "ratio": ratio}, "<= 4", ratio <= 4)
+    bars, bare, robust = alternate(
+        ours(points, normals, 300, 10, ORDERS),
+        ours(points, normals, 300, 10, ORDERS, **plain),
+        ours(points, normals, 300, 10, ORDERS, queries=200, norm="l1", **plain),
+    )
+    row = {"us with": 1e6 * statistics.median(bars), "us without": 1e6 * statistics.median(bare)}
+    show("error bars, K=10 N=300", row)
+    row = {"us": 1e6 * statistics.median(robust)} | spread_of_ratio(robust, bare)
+    show("l1 over l2, K=10 N=300", row, "<= 4", row["ratio"] <= 4)
     how = {"radius": radius_for(300, len(points)), "degree": 10, "orders": ORDERS}
-    clocks = []
-    for threads in (1, 2):
-        seconds = median_time(
-            lambda t=threads: estimate_directions(
-                points, queries=np.arange(3000), normals=normals, threads=t, **how
-            ),
-            time.perf_counter,
-        )
-        clocks.append(seconds)
-        show(f"{threads} threads, wall clock", {"us a point": 1e6 * seconds / 3000})
-    gain = clocks[0] / clocks[1]
-    show("two threads against one", {"ratio": gain}, ">= 1.9", gain >= 1.9)
+
+    def clock(threads: int):
+        def run() -> None:
+            estimate_directions(
+                points, queries=np.arange(3000), normals=normals, threads=threads, **how
+            )
+
+        return lambda: once(run, time.perf_counter) / 3000
+
+    one, two = alternate(clock(1), clock(2))
+    row = {"us one": 1e6 * statistics.median(one), "us two": 1e6 * statistics.median(two)}
+    row |= spread_of_ratio(one, two)
+    show("two threads against one, wall", row, ">= 1.9", row["ratio"] >= 1.9)
     for name, most in (("not cached", 8.0), ("cached", 0.7)):
         seconds = first_result(options.build / "kernels", fresh=name == "not cached")
         show(f"first result, {name}", {"s": seconds}, f"<= {most}", seconds <= most)
