@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from pdtheory.pointset.kernels import results
-from pdtheory.pointset.kernels.jit import Array, IntArray, kernel, steady
+from pdtheory.pointset.kernels.jit import Array, IntArray, inner, kernel
 from pdtheory.pointset.kernels.lanes import LANES
 from pdtheory.pointset.kernels.results import Directions, Jets
 from pdtheory.pointset.kernels.roots import (
@@ -44,7 +44,7 @@ BENCH = layout(
 )
 
 
-@steady
+@inner
 def _deviations(
     covariance: Array, entry: int, order: int, c: float, s: float, bench: Any
 ) -> tuple[float, float]:
@@ -79,7 +79,7 @@ def _deviations(
     return np.sqrt(max(of_slope, 0.0)), np.sqrt(max(of_value, 0.0))
 
 
-@steady
+@inner
 def _scale_term(phi: Any, column: int, order: int, unit: float, bench: Any) -> tuple[float, float]:
     """Write the coefficients of one order in units of the largest; returns its size and the sum."""
     largest = 0.0
@@ -100,7 +100,7 @@ def _scale_term(phi: Any, column: int, order: int, unit: float, bench: Any) -> t
     return largest, swing
 
 
-@steady
+@inner
 def _bracket(
     start: int,
     end: int,
@@ -150,7 +150,7 @@ def _bracket(
     return total
 
 
-@steady
+@inner
 def _store(
     start: int,
     end: int,

@@ -55,16 +55,3 @@ def inner(function: F) -> F:
     """Compile a function that only kernels call, without the wrappers that Python would need."""
     part = _compile(function, no_cpython_wrapper=True, no_cfunc_wrapper=True, cache=False)
     return compile_as(Part, part)
-
-
-def steady(function: F) -> F:
-    """Compile an inner function whose bits must not depend on what surrounds it.
-
-    With the liberties of `_FAST` a sum is ordered differently where the function is inlined and
-    where it is called, and Numba links one or the other: the process that compiles would differ in
-    the last bit from those that load the code, and a resumed run from one in a single go.
-    """
-    part = _compile(
-        function, fastmath=False, no_cpython_wrapper=True, no_cfunc_wrapper=True, cache=False
-    )
-    return compile_as(Part, part)

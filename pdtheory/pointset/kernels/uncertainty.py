@@ -16,7 +16,7 @@ import numpy as np
 
 from pdtheory.pointset.kernels.cholesky import PANEL, factor, fill_gram
 from pdtheory.pointset.kernels.fit import Fit
-from pdtheory.pointset.kernels.jit import Array, steady
+from pdtheory.pointset.kernels.jit import Array, inner
 from pdtheory.pointset.kernels.lanes import LANES, Lanes, Rows, emit
 from pdtheory.pointset.kernels.moments import (
     PRODUCT,
@@ -128,7 +128,7 @@ def _inner_products(to: Lanes, U: Rows, count: Any, n: Any, out: Rows) -> None:
         to.store(to.sums(list(map(to.get, sums))), out.at(to.minus(i, 1), first))
 
 
-@steady
+@inner
 def _noise_of_l1(cloud: Array, n: int, used: int) -> float:
     """Return the scale that stands for the noise in the covariance of an l1 fit.
 
@@ -161,7 +161,7 @@ def _noise_of_l1(cloud: Array, n: int, used: int) -> float:
     return np.sqrt(np.pi / 2.0) * high / 0.6744897501960817
 
 
-@steady
+@inner
 def prepare_covariances(
     cloud: Array, n: int, fit: Fit, robust: Any, tangent: bool, w: Any
 ) -> float:
@@ -216,7 +216,7 @@ def prepare_covariances(
     return np.sqrt(squares / left) if left > 0.0 else np.inf
 
 
-@steady
+@inner
 def spread_order(order: int, fit: Fit, tables: Any, w: Any) -> None:
     """Write X L^-T e to the rows of ``w.U`` for the coefficients x^(k-b) y^b about the origin.
 
@@ -238,7 +238,7 @@ def spread_order(order: int, fit: Fit, tables: Any, w: Any) -> None:
     _combine(w.Y, order + 1, last, w.X, degree_start(top, 0), w.U)
 
 
-@steady
+@inner
 def order_covariance(order: int, fit: Fit, tangent: bool, tables: Any, w: Any) -> None:
     """Write the covariance of c_{k-b,b} about the origin, b = 0..k, for unit noise to ``w.C``.
 
