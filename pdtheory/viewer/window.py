@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -124,10 +125,15 @@ def widget(
 ) -> Any:
     """Return the view of :func:`view_field`, controls included, as a widget for a notebook.
 
+    The kernel draws, and serves the page on its own machine without any network; a browser on
+    another machine reaches it only through PyVista's settings for a proxy.
+
     Parameters
     ----------
-    field, cloud, orders, kind, strokes, least_strength, largest_uncertainty, size
+    field, cloud, orders, kind, strokes, least_strength, largest_uncertainty
         As for :func:`view_field`.
+    size
+        Width and height in pixels; a narrower notebook makes the widget narrower.
 
     Returns
     -------
@@ -149,6 +155,7 @@ def widget(
         least_strength=least_strength,
         largest_uncertainty=largest_uncertainty,
     )
+    check_size(size)
     pyvista = _pyvista()
     try:
         import ipywidgets  # noqa: F401
@@ -162,9 +169,39 @@ def widget(
     plotter = pyvista.Plotter(notebook=True, off_screen=True, window_size=list(size))
     scene = FieldView(field, cloud, choice, _view(field, cloud, None, None, None), plotter)
     scene.add_controls()
-    # Drawn by the kernel, where the switches live. PyVista may look for its renderer in the browser
-    # on the network as well; this does not need it.
-    return plotter.show(jupyter_backend="server", return_viewer=True)
+    with _own_server(pyvista):
+        # Drawn by the kernel, where the switches live. A fixed width would be cut off on the right,
+        # and the slider with it.
+        return plotter.show(
+            jupyter_backend="server",
+            jupyter_kwargs={"width": f"min({size[0]}px, 100%)"},
+            return_viewer=True,
+        )
+
+
+@contextmanager
+def _own_server(pyvista: Any) -> Iterator[None]:
+    """Let PyVista start a server that downloads nothing.
+
+    With each server PyVista sets up VTK's renderer for the browser, which is fetched at once; where
+    that fails, a traceback appears below some later cell. The kernel draws this view, so the
+    renderer is left out; and the server is our own, because other plots may want it in theirs.
+    """
+    settings = pyvista.global_theme.trame
+    shared = settings.jupyter_server_name
+    try:
+        from trame.widgets import vtklocal
+    except ImportError:
+        vtklocal = None
+    else:
+        initialize, vtklocal.initialize = vtklocal.initialize, lambda server: None
+    settings.jupyter_server_name = "pdtheory"
+    try:
+        yield
+    finally:
+        settings.jupyter_server_name = shared
+        if vtklocal is not None:
+            vtklocal.initialize = initialize
 
 
 def _view(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import subprocess
 import sys
 from importlib.util import find_spec
 from pathlib import Path
@@ -235,6 +237,69 @@ def test_widget_says_what_it_needs(field):
         return
     with pytest.raises(MissingDependencyError, match="extra notebook"):
         widget(field, size=(300, 200))
+
+
+#: As a kernel does: the loop is running when the widget is made, and goes on. Names are resolved
+#: here only for this machine; what is asked for beyond it is written down.
+CELL = """
+import asyncio, gc, json, socket, sys
+import pyvista
+from pdtheory.pointset import DirectionField
+from pdtheory.viewer import widget
+
+local = {None, "", "localhost", "127.0.0.1", "::1", "0.0.0.0"}
+beyond, resolve = [], socket.getaddrinfo
+
+def offline(host, *arguments, **options):
+    if host in local:
+        return resolve(host, *arguments, **options)
+    beyond.append(str(host))
+    raise socket.gaierror(socket.EAI_NONAME, "Name or service not known")
+
+socket.getaddrinfo = offline
+
+async def cell():
+    from aiohttp import ClientSession
+    shared = pyvista.global_theme.trame.jupyter_server_name
+    shown = widget(DirectionField.load(sys.argv[1]), size=(300, 200))
+    assert pyvista.global_theme.trame.jupyter_server_name == shared
+    async with ClientSession() as session, session.get(shown.src) as page:
+        text = await page.text()
+    await asyncio.sleep(0.5)
+    gc.collect()
+    print(json.dumps({"page": text, "status": page.status, "shown": shown.value, "beyond": beyond}))
+
+asyncio.run(cell())
+"""
+
+
+@needs_pyvista
+def test_widget_needs_no_network(field, tmp_path):
+    for library in ("trame", "ipywidgets"):
+        pytest.importorskip(library, reason=f"{library} is not installed (extra notebook)")
+    field.save(tmp_path / "f.npz")
+    # A process of its own: a server is set up once in each.
+    done = subprocess.run(
+        [sys.executable, "-c", CELL, tmp_path / "f.npz"],
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
+    assert done.returncode == 0, done.stderr
+    assert "Traceback" not in done.stderr
+    said = json.loads(done.stdout.splitlines()[-1])
+    assert said["beyond"] == []
+    assert said["status"] == 200
+    # The page brings its own scripts.
+    assert "<script" in said["page"]
+    assert 'src="http' not in said["page"]
+    assert "width: min(300px, 100%); height: 200px" in said["shown"]
+
+
+@needs_pyvista
+def test_widget_checks_its_size(field):
+    with pytest.raises(InputError, match="16 to 16384"):
+        widget(field, size=(5, 5))
 
 
 @needs_pyvista
