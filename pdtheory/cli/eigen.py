@@ -71,8 +71,8 @@ def eigen(
     elif as_latex:
         _print_latex(forms, complex_pairs, characteristic)
     else:
-        for name, value in heading.items():
-            typer.echo(f"{name}: {value}")
+        if heading:
+            _print_frame(heading)
         for form in forms:
             print_order(form.eigenpairs(), digits)
             _print_more(form, complex_pairs, characteristic, digits)
@@ -117,6 +117,13 @@ def _implicit_forms(
     if not forms:
         raise InputError(f"The surface is flat at ({at}) up to order {degree}: no directions.")
     return forms, heading
+
+
+def _print_frame(heading: dict[str, Any]) -> None:
+    """Print where on a surface the orders are, and which way x, y and z go there."""
+    typer.echo(f"At ({', '.join(heading['point'])}), in the frame")
+    for name, axis in zip(("x", "y", "normal"), heading["frame"], strict=True):
+        typer.echo(f"  {name:6} ({', '.join(axis)})")
 
 
 def _point(text: str, count: int) -> tuple[Any, ...]:

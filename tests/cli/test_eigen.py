@@ -92,3 +92,14 @@ def test_bad_options(refused: Refused) -> None:
     for option in ("--order", "--max-order", "--digits"):
         refused("eigen", "exp(x)", option, 0)
         refused("eigen", "exp(x)", option, 10**9)
+
+
+def test_the_frame_on_a_surface_can_be_read(cli: Run) -> None:
+    result = cli("eigen", "--implicit", "x**2+y**2+z**2-1", "--at", "1/3,2/3,2/3", "--order", 2)
+    assert result.exit_code == 0, result.output
+    assert result.stdout.splitlines()[:4] == [
+        "At (1/3, 2/3, 2/3), in the frame",
+        "  x      (2*sqrt(2)/3, -sqrt(2)/6, -sqrt(2)/6)",
+        "  y      (0, sqrt(2)/2, -sqrt(2)/2)",
+        "  normal (1/3, 2/3, 2/3)",
+    ]
