@@ -1,8 +1,8 @@
 """Inner functions compiled once, as parts of the kernels that call them.
 
 Numba optimizes and assembles every function by itself before it links it to its callers, where the
-same is done to it again, up the whole tree of calls: four fifths of the time of a compilation. Here
-the code of an inner function is only kept, to be linked to a kernel and optimized there.
+same is done to it again, up the whole tree of calls, which more than doubles the time of a first
+run. Here the code of an inner function is only kept, to be linked to a kernel and optimized there.
 """
 
 from __future__ import annotations
