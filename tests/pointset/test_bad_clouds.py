@@ -66,6 +66,19 @@ def test_few_neighbours_lower_the_degree():
     np.testing.assert_array_equal(field.phi[:, field.phi_order > 5], 0)
 
 
+def test_coefficients_above_a_lowered_degree_are_zero_beside_points_of_full_degree():
+    """Nothing of a point that was answered before may be left in them."""
+    rng = np.random.default_rng(0)
+    xy = np.concatenate([rng.uniform(-1, 1, (3000, 2)), rng.uniform(3, 5, (250, 2))])
+    points = np.column_stack([xy, 0.2 * xy[:, 0] ** 2 - 0.1 * xy[:, 1] ** 3])
+    field = estimate_directions(points, radius=0.5, degree=8, orders=(2,), threads=1)
+    lowered = (field.degree > 0) & (field.degree < 8)
+    assert lowered.sum() > 100
+    assert np.sum(field.degree == 8) > 100
+    above = field.phi_order[None, :] > field.degree[:, None]
+    np.testing.assert_array_equal(field.phi[lowered][above[lowered]], 0)
+
+
 def test_thin_slanted_strip():
     """A curved strip is wider upwards than across: its principal plane stands upright.
 

@@ -88,8 +88,11 @@ def _write_phi(
         w.turns[row + 1, n // 2] = im
         re, im = re * c1 - im * s1, re * s1 + im * c1
     _transform(c, fit.top, tables.real, tables.imaginary, w.turns, radius, w.planar)
-    for i in range(len(phi)):
+    found = (fit.top + 2) * (fit.top + 2) // 4
+    for i in range(found):
         phi[i] = complex(w.planar[0, i], w.planar[1, i])
+    for i in range(found, len(phi)):
+        phi[i] = 0.0
 
 
 @inner
