@@ -313,7 +313,7 @@ def stages() -> None:
         cells, _ = grid.build_grid(all_points, radius)
         points = len(cKDTree(all_points).query_ball_point(all_points[7], radius))
         n = -(-points // LANES) * LANES
-        cloud = aligned(moments.CLOUD_ROWS, 1032)
+        cloud = aligned(moments.CLOUD_ROWS, 1024)
         settings = fit.Settings(degree, fit.FRAME_TANGENT, False, False, False, True)
         phi = np.empty((degree + 2) ** 2 // 4, np.complex128)
         fixed = (cells, all_points[7], normals[7], radius, settings, make_tables(), cloud)

@@ -28,7 +28,7 @@ from pdtheory.pointset.trees import kd_tree
 #: face of a cube corner rises by sqrt(2) over the plane of the corner, so sqrt(3) radii see it all.
 PLANAR_REACH = 1.75
 #: Neighbours that memory is kept for at first.
-_CAPACITY = 1032
+_CAPACITY = 1024
 
 
 class _Memory(threading.local):

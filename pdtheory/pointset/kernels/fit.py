@@ -14,10 +14,8 @@ from pdtheory.pointset.kernels.moments import DX, DY, DZ, SQUARED, WEIGHT, X, Y,
 from pdtheory.pointset.kernels.regression import (
     degree_start,
     doubtful,
-    misfit,
-    refine,
     regress,
-    rounding_counts,
+    settle,
 )
 from pdtheory.pointset.kernels.tilting import gradient, shift, tilt_matters, untilt
 
@@ -285,11 +283,7 @@ def fit_point(
         reached, pivot = regress(cloud, WEIGHT, n, degree, w)
         if reached < 0:
             return Fit(status | _DEGENERATE, 0, 0, 0.0, 0.0, np.nan, np.nan, inside)
-        residual = misfit(cloud, n, degree, weight, w)
-        refined = rounding_counts(pivot, residual)
-        if refined:
-            refine(cloud, WEIGHT, n, degree, w)
-            residual = misfit(cloud, n, degree, weight, w)
+        residual, refined = settle(cloud, WEIGHT, n, degree, weight, pivot, w)
         for i in range(len(w.c)):
             w.centred[i] = w.c[i]
         shift(w.c, degree, cx, cy, w.table, w.middle)

@@ -116,14 +116,6 @@ def refine(cloud: Array, weights: int, n: int, degree: int, w: Any) -> None:
 
 
 @inner
-def rounding_counts(pivot: float, residual: float) -> bool:
-    """Whether a fit with this pivot and misfit, in units of the radius, shall be refined."""
-    if pivot < REFINE_PIVOT:
-        return True
-    return pivot < EXACT_PIVOT and residual * np.sqrt(pivot) < ROUNDING
-
-
-@inner
 def misfit(cloud: Array, n: int, degree: int, total: float, w: Any) -> float:
     """Fill the residuals; return their root mean square with the weights of the cloud."""
     fill_residuals(cloud, n, degree, w)
@@ -131,3 +123,23 @@ def misfit(cloud: Array, n: int, degree: int, total: float, w: Any) -> float:
     for i in range(n):
         squares += cloud[WEIGHT, i] * cloud[RESIDUAL, i] * cloud[RESIDUAL, i]
     return np.sqrt(squares / total)
+
+
+@inner
+def settle(
+    cloud: Array, weights: int, n: int, degree: int, total: float, pivot: float, w: Any
+) -> tuple[float, bool]:
+    """Refine a fit with the given row of weights if rounding counts, and fill the residuals.
+
+    Returns
+    -------
+    (float, bool)
+        The misfit, and whether the fit was refined.
+    """
+    residual = misfit(cloud, n, degree, total, w)
+    close = residual * np.sqrt(pivot) < ROUNDING
+    refined = pivot < REFINE_PIVOT or (pivot < EXACT_PIVOT and close)
+    if refined:
+        refine(cloud, weights, n, degree, w)
+        residual = misfit(cloud, n, degree, total, w)
+    return residual, refined

@@ -12,9 +12,8 @@ from pdtheory.pointset.kernels.jit import Array, inner
 from pdtheory.pointset.kernels.moments import BEFORE, RESIDUAL, REWEIGHT, WEIGHT
 from pdtheory.pointset.kernels.regression import (
     misfit,
-    refine,
     regress,
-    rounding_counts,
+    settle,
 )
 from pdtheory.pointset.kernels.tilting import shift
 
@@ -73,10 +72,7 @@ def fit_robustly(cloud: Array, n: int, fit: Fit, w: Any) -> Fit:
             return Fit(
                 fit.status | _DEGENERATE, 0, degree, 0.0, 0.0, np.nan, np.nan, fit.neighbours
             )
-        residual = misfit(cloud, n, degree, weight, w)
-        if rounding_counts(pivot, residual):
-            refine(cloud, REWEIGHT, n, degree, w)
-            residual = misfit(cloud, n, degree, weight, w)
+        settle(cloud, REWEIGHT, n, degree, weight, pivot, w)
         best = STEPS[0]
         after = np.inf
         for step in STEPS:
