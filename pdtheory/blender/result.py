@@ -303,5 +303,5 @@ def describe(field: DirectionField, *, loose: int = 0) -> list[str]:
         lines.insert(1, f"{loose:,} loose vertices left out.")
     for row in order_summaries(field):
         found = f"strength {row.strength:.2g}, ± {row.angle_std:.2g}°"
-        lines.append(f"Order {row.order}: {found if row.maxima + row.minima else 'no directions'}")
+        lines.append(f"Order {row.order}: {found if len(field[row.order]) else 'no directions'}")
     return lines
