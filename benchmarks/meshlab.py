@@ -71,9 +71,9 @@ def main() -> None:
         for scale in SCALES:
             reach, neighbours = _reach(cloud, found, scale)
             key = f"{scale}:no"
-            rows = [("APSS", float(found[key + ":time"]), *_apss_errors(cloud, torus, found, key))]
+            rows = [("APSS", float(found[key + ":time"]), *_apss_errors(torus, found, key))]
             for degree in (2, 4):
-                if neighbours < 2 * (degree + 1) * (degree + 2) // 2:
+                if neighbours < (degree + 1) * (degree + 2):
                     continue
                 rows.append(
                     (f"pdtheory, degree {degree}", *_ours(cloud, torus, neighbours, degree))
@@ -123,9 +123,7 @@ def _errors(value: np.ndarray, vector: np.ndarray, torus: PointCloud) -> tuple[f
     return float(np.median(np.abs(np.abs(value) / exact - 1.0))), float(np.median(angle))
 
 
-def _apss_errors(
-    cloud: PointCloud, torus: PointCloud, found: dict[str, np.ndarray], key: str
-) -> tuple[float, float]:
+def _apss_errors(torus: PointCloud, found: dict[str, np.ndarray], key: str) -> tuple[float, float]:
     # Which of the two directions belongs to K1 is not said: the better one counts.
     value = found[key + ":k1"]
     both = [_errors(value, found[key + name], torus) for name in (":first", ":second")]

@@ -54,21 +54,16 @@ def radius_for(neighbours: int, count: int) -> float:
     return float(np.sqrt(neighbours * 4 * np.pi**2 * 0.4 / count / np.pi))
 
 
-def median_time(action, clock=time.process_time) -> float:
-    """Median of five timings."""
-    times = []
-    for _ in range(REPEATS):
-        start = clock()
-        action()
-        times.append(clock() - start)
-    return statistics.median(times)
-
-
 def once(action, clock=time.process_time) -> float:
     """Seconds that one call takes."""
     start = clock()
     action()
     return clock() - start
+
+
+def median_time(action) -> float:
+    """Median of five timings by processor time."""
+    return statistics.median(once(action) for _ in range(REPEATS))
 
 
 def alternate(*actions) -> list[list[float]]:
@@ -168,9 +163,8 @@ def igl_row(python: str, folder: Path) -> dict[str, float]:
         )  # fmt: skip
         return float(json.loads(done.stdout))
 
-    normals = points - np.column_stack(
-        [points[:, :2] / np.linalg.norm(points[:, :2], axis=1, keepdims=True), 0 * points[:, :1]]
-    )
+    ring = np.linalg.norm(points[:, :2], axis=1)
+    normals = points - np.column_stack([points[:, :2] / ring[:, None], 0 * points[:, :1]])
     radius = np.mean(cKDTree(points).query(points[::50], k=[100])[0])
     how = {"radius": radius, "degree": 4, "orders": (2,), "normals": normals, "threads": 1}
     field = estimate_directions(points, uncertainty=False, **how)
@@ -179,7 +173,6 @@ def igl_row(python: str, folder: Path) -> dict[str, float]:
         estimate_directions(points, uncertainty=False, **how)
 
     peer, mine = alternate(theirs, lambda: once(run) / len(points))
-    ring = np.linalg.norm(points[:, :2], axis=1)
     exact = np.sort(np.column_stack([np.full(len(points), 2.5), (ring - 1) / 0.4 / ring]), axis=1)
     curvatures = np.load(folder / "igl.npy")
     if np.median(curvatures) < 0:
