@@ -18,7 +18,7 @@ from pdtheory.exact.balls import engine, horner
 from pdtheory.exact.coefficients import check_order
 from pdtheory.exact.complexpair import ComplexEigenPair, places
 from pdtheory.exact.constantpolynomial import ConstantPolynomial
-from pdtheory.exact.eigenpairs import Outcome
+from pdtheory.exact.eigenpairs import Outcome, critical_form
 from pdtheory.exact.engines import Integers
 from pdtheory.exact.faces import BinaryForm, Face
 from pdtheory.exact.intervals import Rectangle
@@ -123,7 +123,7 @@ def complex_eigenpairs(face: Face) -> ComplexEigenPairs:
     numbers.check_real_numbers()
     if form.is_zero:
         return ComplexEigenPairs(form.order, "vanishing", (), 0)
-    derivative = form.angular_derivative()
+    derivative = critical_form(form, numbers)
     if derivative.is_zero:
         return ComplexEigenPairs(form.order, "isotropic", (), 0)
     # F = (x^2 + y^2)^m times a form without isotropic zeros, and likewise f up to its mean.
@@ -138,7 +138,7 @@ def complex_eigenpairs(face: Face) -> ComplexEigenPairs:
             isinstance(z.polynomial, tuple) and is_root(value, z.polynomial, z.place) for z in zeros
         ]
     else:
-        vanishing = _common_zeros(form, zeros)
+        vanishing = _common_zeros(form, isotropic, numbers, zeros)
     classes = [
         ComplexEigenPair(
             z.polynomial, z.position, z.is_real, mirrored, z.multiplicity, vanishes, numbers
@@ -189,9 +189,10 @@ def _without_isotropic(form: BinaryForm, power: int) -> BinaryForm:
     return WavejetsRow(order, {n: value for n, value in row.phi.items() if n <= order}).form
 
 
-def _common_zeros(form: BinaryForm, zeros: list[_Zero]) -> list[bool]:
+def _common_zeros(
+    form: BinaryForm, isotropic: int, numbers: Coefficients, zeros: list[_Zero]
+) -> list[bool]:
     """Return which zeros of F are zeros of f: the multiple ones of f, those at +-i left out."""
-    numbers = Coefficients(form.coefficients)
     doubtful = []
     for zero in zeros:
         with engine().precision(FIRST_BITS):
@@ -200,7 +201,6 @@ def _common_zeros(form: BinaryForm, zeros: list[_Zero]) -> list[bool]:
                 doubtful.append(zero)
     if not doubtful:
         return [False] * len(zeros)
-    isotropic = (form.order - form.row.support[-1]) // 2
     found, _ = _constant_zeros(_without_isotropic(form, isotropic))
     multiple = [z for z in found if z.multiplicity > 1]
     for bits in precisions():

@@ -130,7 +130,7 @@ def real_eigenpairs(face: Face) -> EigenPairs:
     numbers.check_real_numbers()
     if face.is_zero:
         return EigenPairs(form, "vanishing", ())
-    derivative = form.angular_derivative()
+    derivative = critical_form(form, numbers)
     if derivative.is_zero:
         return EigenPairs(form, "isotropic", ())
     half = _half_circle(derivative)
@@ -148,6 +148,14 @@ def real_eigenpairs(face: Face) -> EigenPairs:
         for tangent, multiplicity, kind in half
     ]
     return EigenPairs(form, "ok", tuple(pairs))
+
+
+def critical_form(form: BinaryForm, numbers: Coefficients) -> BinaryForm:
+    """Return F, or F over the common factor of f, so that both lie in one field where f does.
+
+    The factor is positive, so that zeros, multiplicities and signs are those of F.
+    """
+    return (BinaryForm(numbers.algebraic) if numbers.in_field else form).angular_derivative()
 
 
 def _common_zeros(

@@ -20,8 +20,6 @@ import sympy as sp
 #: cube roots (27) not within 25 s.
 MOST_SQUARE_ROOTS: Final = 64
 MOST_DEGREE: Final = 12
-#: Degree above which not even a caller who has no other way is made to wait.
-HOPELESS_DEGREE: Final = 24
 
 
 class _NotCovered(Exception):
@@ -64,18 +62,10 @@ class Extent(NamedTuple):
         """Bound on the degree of the field."""
         return self.square_roots * self.others
 
-    def _most(self, most: int) -> int:
-        return MOST_SQUARE_ROOTS if self.others == 1 else most
-
     @property
     def is_small(self) -> bool:
         """True if it is a matter of a second to compute in the field."""
-        return self.degree <= self._most(MOST_DEGREE)
-
-    @property
-    def is_hopeless(self) -> bool:
-        """True if the generator of the field, or norms over it, may take longer than minutes."""
-        return self.degree > self._most(HOPELESS_DEGREE)
+        return self.degree <= (MOST_SQUARE_ROOTS if self.others == 1 else MOST_DEGREE)
 
 
 def extent(numbers: Iterable[Any]) -> Extent:

@@ -429,3 +429,14 @@ def test_a_long_expression_is_not_written(monkeypatch):
     value = sp.Add(*(sp.cos(n) for n in range(1, 200)))
     monkeypatch.setattr("pdtheory.exact.texts.sp.sstr", pytest.fail)
     assert not text_within(value, 100)
+
+
+def test_double_zeros_vanish_whatever_factor_the_form_carries() -> None:
+    """A factor so long that it is found in f, but in its derivative no longer."""
+    plain = BinaryForm([1, 0, 0, -2, 0, 0, 1])
+    long = (sp.pi + sp.E) ** 16
+    scaled = BinaryForm([long * c for c in (1, 0, 0, -2, 0, 0, 1)])
+    for pairs in (real_eigenpairs, complex_eigenpairs):
+        expected = [pair.vanishing for pair in pairs(plain)]
+        assert any(expected)
+        assert [pair.vanishing for pair in pairs(scaled)] == expected
