@@ -10,10 +10,14 @@ from pdtheory.pointset.kernels.lanes import LANES, Lanes, Rows, emit
 #: weights; coordinates in the local frame; residuals; products; weights and last residuals of l1.
 DX, DY, DZ, SQUARED, WEIGHT, X, Y, Z, RESIDUAL, PRODUCT, REWEIGHT, BEFORE = range(12)
 CLOUD_ROWS = 12
-#: Most points whose powers are kept at a time, so that these stay in the nearest cache.
-BLOCK = 320
-#: Powers of x in a tile; those of y are as many as a vector has lanes.
+#: Most points whose powers are kept at a time, so that these stay in the nearest cache, of which
+#: another process may use half.
+BLOCK = 128
+#: Powers of x in a tile, and widths of tiles in powers of y, as large as the registers allow.
 TALL = 3
+WIDTHS = (9, 6, 3) if LANES == 8 else (4, 2)
+#: Powers of y that are kept at a time.
+WIDE = WIDTHS[0]
 
 
 def cube_rows(degree: int) -> int:
@@ -35,9 +39,9 @@ def sum_products(
         Number of points, a multiple of LANES, and largest total degree.
     cubes : (>= cube_rows, >= BLOCK) float64
         Scratch for 1, x^3, x^6, ...
-    columns : (LANES + 1, >= BLOCK) float64
-        Scratch for w y^b, LANES of them at a time, and y^LANES.
-    out : (>= top + 4, >= top + LANES + 1) float64
+    columns : (WIDE + 1, >= BLOCK) float64
+        Scratch for w y^b, WIDE of them at a time, and y^WIDE.
+    out : (>= top + 4, >= top + 2 * LANES) float64
         The sums; entries with a + b > top are scratch.
     """
     _sum(to, cloud, weights, n, cubes, columns, top, out, None, None)
@@ -79,7 +83,7 @@ def _sum(
     if degree is not None:
         targets.append((degree, heights, to.plus(to.div(top, TALL), 1)))
     for last, out, _ in targets:
-        with to.count(0, to.plus(last, TALL)) as a, to.count(0, to.plus(last, LANES), LANES) as b:
+        with to.count(0, to.plus(last, TALL)) as a, to.count(0, to.plus(last, WIDE), LANES) as b:
             to.store(to.constant(0.0), out.at(a, b))
     blocks = to.greatest(to.div(to.plus(n, BLOCK - 1), BLOCK), 1)
     vectors = to.div(to.plus(n, LANES - 1), LANES)
@@ -88,18 +92,20 @@ def _sum(
         start = to.mul(block, length)
         stop = to.least(length, to.minus(n, start))
         _fill_powers(to, cloud, weights, start, stop, top, degree, cubes, columns)
-        with to.count(0, to.plus(top, 1), LANES) as b:
+        with to.count(0, to.plus(top, 1), WIDE) as b:
             for last, out, cube in targets:
                 left = to.minus(last, b)
-                tiles = to.plus(to.div(to.plus(left, TALL), TALL), cube)
-                wide = to.div(to.greatest(to.plus(left, TALL - LANES // 2), 0), TALL)
-                wide = to.plus(wide, cube)
-                for width, first, end in ((LANES, cube, wide), (LANES // 2, wide, tiles)):
+                first = cube
+                for width, narrower in zip(WIDTHS, (*WIDTHS[1:], 0), strict=True):
+                    # The power a has left - a + 1 partners: tiles with more than the next width.
+                    tiles = to.div(to.greatest(to.plus(left, TALL - narrower), 0), TALL)
+                    end = to.plus(cube, tiles)
                     with to.count(first, end) as tile:
                         a = to.mul(to.minus(tile, cube), TALL)
                         _tile(to, cloud, start, stop, cubes, columns, tile, width, out, a, b)
+                    first = end
             left = to.minus(top, b)
-            with to.builder.if_then(to.builder.icmp_signed(">=", left, to.integer(LANES))):
+            with to.builder.if_then(to.builder.icmp_signed(">=", left, to.integer(WIDE))):
                 _raise_columns(to, stop, columns)
 
 
@@ -114,7 +120,7 @@ def _fill_powers(
     cubes: Rows,
     columns: Rows,
 ) -> None:
-    """Write the powers of x^3, those times z, and the first LANES columns w y^b."""
+    """Write the powers of x^3, those times z, and the first WIDE columns w y^b."""
     with to.count(0, stop, LANES) as i:
         at = to.plus(start, i)
         x = to.load(cloud.at(X, at))
@@ -135,21 +141,20 @@ def _fill_powers(
         square = to.times(y, y)
         even = to.load(cloud.at(weights, at))
         odd = to.times(even, y)
-        for row in range(0, LANES, 2):
+        for row in range(WIDE):
             to.store(even, columns.at(row, i))
-            to.store(odd, columns.at(row + 1, i))
-            even, odd = to.times(even, square), to.times(odd, square)
-        last = square
-        for _ in range(LANES.bit_length() - 2):
-            last = to.times(last, last)
-        to.store(last, columns.at(LANES, i))
+            even, odd = odd, to.times(even, square)
+        last = to.times(square, square)
+        if WIDE == 9:
+            last = to.times(to.times(last, last), y)
+        to.store(last, columns.at(WIDE, i))
 
 
 def _raise_columns(to: Lanes, stop: Any, columns: Rows) -> None:
-    """Multiply all columns by y^LANES."""
+    """Multiply all columns by y^WIDE."""
     with to.count(0, stop, LANES) as i:
-        factor = to.load(columns.at(LANES, i))
-        for row in range(LANES):
+        factor = to.load(columns.at(WIDE, i))
+        for row in range(WIDE):
             at = columns.at(row, i)
             to.store(to.times(to.load(at), factor), at)
 
@@ -178,10 +183,12 @@ def _tile(
             value = to.load(columns.at(column, i))
             for power, row in zip(powers, sums, strict=True):
                 to.put(to.add(to.times(power, value), to.get(row[column])), row[column])
-    rest = [to.constant(0.0)] * (LANES - width)
     for offset, row in enumerate(sums):
-        at = out.at(to.plus(a, offset), b)
-        to.store(to.add(to.load(at), to.sums([*map(to.get, row), *rest])), at)
+        for column in range(0, width, LANES):
+            part = [to.get(total) for total in row[column : column + LANES]]
+            part += [to.constant(0.0)] * (LANES - len(part))
+            at = out.at(to.plus(a, offset), to.plus(b, column))
+            to.store(to.add(to.load(at), to.sums(part)), at)
 
 
 @emit

@@ -13,7 +13,7 @@ from pdtheory.conventions import frequencies
 from pdtheory.pointset.kernels.cholesky import WIDEST, padded_columns, padded_rows
 from pdtheory.pointset.kernels.jit import Array
 from pdtheory.pointset.kernels.lanes import LANES
-from pdtheory.pointset.kernels.moments import BLOCK, cube_rows
+from pdtheory.pointset.kernels.moments import BLOCK, WIDE, cube_rows
 
 #: Sample intervals of the angles on the half circle.
 SAMPLES = 64
@@ -76,7 +76,7 @@ TABLES = layout(
 #: Memory of one thread, reused from point to point.
 WORKSPACE = layout(
     cubes=(cube_rows(MAX_DEGREE), BLOCK),
-    columns=(LANES + 1, BLOCK),
+    columns=(WIDE + 1, BLOCK),
     sums=(2 * MAX_DEGREE + 4, 2 * MAX_DEGREE + 2 * LANES),
     heights=(2 * MAX_DEGREE + 4, 2 * MAX_DEGREE + 2 * LANES),
     ordered=(2 * MAX_DEGREE + 1, 2 * MAX_DEGREE + 1 + WIDEST),
@@ -95,7 +95,7 @@ WORKSPACE = layout(
     horner=(_COLUMNS,),
     table=(SIDE + 1, SIDE + LANES),
     middle=(SIDE + 1, SIDE + LANES),
-    slope=(SIDE + 1, 2 * SIDE),
+    slope=(SIDE + 8, 2 * SIDE),
     norms=(SIDE,),
     frame=(3, 3),
     A=(3, 3),
