@@ -96,6 +96,10 @@ class Lanes:
         """A constant in all lanes."""
         return ir.Constant(_VECTOR, [value] * LANES)
 
+    def sequence(self, first: int) -> Any:
+        """The whole numbers from `first` on as constants."""
+        return ir.Constant(_VECTOR, [float(first + lane) for lane in range(LANES)])
+
     def spread(self, value: Any) -> Any:
         """One number in all lanes."""
         empty = ir.Constant(_VECTOR, ir.Undefined)

@@ -12,12 +12,14 @@ from pdtheory.pointset.kernels.lanes import LANES, Lanes, Rows, emit
 from pdtheory.pointset.kernels.regression import degree_start
 from pdtheory.pointset.kernels.tables import SIDE
 
+#: Rows of a product of polynomials that are computed together.
+ROWS = 4
 #: Effect of a remaining tilt that is tolerated, as a fraction of the residual and of the height.
 TILT_OF_RESIDUAL, TILT_OF_HEIGHT = 0.3, 1e-13
 
 
 @emit
-def _spread_out(to: Lanes, c: Rows, degree: Any, table: Rows) -> None:
+def spread_out(to: Lanes, c: Rows, degree: Any, table: Rows) -> None:
     """Write coefficients to a table by powers, zeros elsewhere."""
     with to.count(0, SIDE) as a:
         for b in range(0, SIDE, LANES):
@@ -72,7 +74,7 @@ def shift(c: Array, degree: int, cx: float, cy: float, table: Array, turned: Arr
     table, turned : (SIDE, >= SIDE) float64
         Scratch.
     """
-    _spread_out(c, degree, table)
+    spread_out(c, degree, table)
     _shift_rows(table, degree, cx)
     _transpose(table, degree, turned)
     _shift_rows(turned, degree, cy)
@@ -123,26 +125,47 @@ def add_product(
     Parameters
     ----------
     first : (SIDE, >= SIDE) float64
-        Coefficients by powers.
-    second : (SIDE, 2 SIDE) float64
-        The same, SIDE columns further right, with zeros before.
+        Coefficients by powers; those above the degree are not looked at.
+    second : (SIDE + 2 ROWS, 2 SIDE) float64
+        The same, SIDE columns further right and ROWS rows further down, with zeros before.
     target : (SIDE, >= SIDE) float64
         Receives the sum; entries above the degree are scratch.
     """
+    with to.count(0, to.plus(degree, 1), ROWS) as i:
+        left = to.minus(degree, i)
+        with to.count(0, to.plus(left, 1), LANES) as part:
+            sums = [to.variable(to.constant(0.0)) for _ in range(ROWS)]
+            with to.count(0, to.least(to.plus(i, ROWS), to.plus(degree, 1))) as i1:
+                most = to.minus(degree, to.greatest(i, i1))
+                with to.count(0, to.least(to.plus(most, 1), to.plus(part, LANES))) as j1:
+                    f = to.spread(to.get(first.at(i1, j1)))
+                    column = to.plus(SIDE, to.minus(part, j1))
+                    for offset, total in enumerate(sums):
+                        row = to.plus(ROWS + offset, to.minus(i, i1))
+                        term = to.times(f, to.load(second.at(row, column)))
+                        to.put(to.add(term, to.get(total)), total)
+            for offset, total in enumerate(sums):
+                at = target.at(to.plus(i, offset), part)
+                value = to.times(to.get(total), to.spread(factor))
+                to.store(to.add(to.load(at), value), at)
+
+
+@emit
+def _fill_slope(to: Lanes, source: Rows, degree: Any, a: Any, b: Any, slope: Rows) -> None:
+    """Write the derivative of a jet in the direction (a, b), as `add_product` wants it.
+
+    What it would need of the terms above the degree is zero.
+    """
+    along = to.spread(b)
     with to.count(0, to.plus(degree, 1)) as i:
-        parts = range(SIDE // LANES)
-        sums = [to.variable(to.constant(0.0)) for _ in parts]
-        with to.count(0, to.plus(i, 1)) as i1, to.count(0, to.plus(to.minus(degree, i), 1)) as j1:
-            f = to.spread(to.get(first.at(i1, j1)))
-            row = to.minus(i, i1)
-            for part in parts:
-                column = to.minus(SIDE + part * LANES, j1)
-                term = to.times(f, to.load(second.at(row, column)))
-                to.put(to.add(to.get(sums[part]), term), sums[part])
-        for part in parts:
-            at = target.at(i, part * LANES)
-            value = to.times(to.get(sums[part]), to.spread(factor))
-            to.store(to.add(to.load(at), value), at)
+        times = to.builder.sitofp(to.plus(i, 1), to.real(0.0).type)
+        across = to.spread(to.builder.fmul(a, times))
+        for part in range(0, SIDE, LANES):
+            by_x = to.times(across, to.load(source.at(to.plus(i, 1), part)))
+            powers = to.times(along, to.sequence(part + 1))
+            by_y = to.times(powers, to.load(source.at(i, part + 1)))
+            to.store(to.add(by_x, by_y), slope.at(to.plus(i, ROWS), SIDE + part))
+        to.put(to.real(0.0), slope.at(to.plus(i, ROWS), to.plus(SIDE, to.minus(degree, i))))
 
 
 @inner
@@ -154,9 +177,7 @@ def _turn(
     Turning the frame about the origin towards the unit direction (a, b) changes the heights h at
     the rate -h (a d/dx + b d/dy) h - (a x + b y).
     """
-    for i in range(degree + 1):
-        for j in range(degree + 1):
-            slope[i, SIDE + j] = a * (i + 1) * source[i + 1, j] + b * (j + 1) * source[i, j + 1]
+    _fill_slope(source, degree, a, b, slope)
     add_product(source, slope, degree, -step, target)
     target[1, 0] -= step * a
     target[0, 1] -= step * b
@@ -174,40 +195,30 @@ def untilt(c: Array, degree: int, frame: Array, table: Array, middle: Array, slo
         The jet.
     frame : (3, 3) float64
         The frame.
-    table, middle : (SIDE + 1, >= SIDE + 1) float64
-        Scratch; `table` receives the turned jet by powers.
-    slope : (SIDE + 1, 2 SIDE) float64
-        Scratch whose left half is zero.
+    table, middle : (SIDE + 1, >= SIDE + LANES) float64
+        Scratch.
+    slope : (SIDE + 2 ROWS, 2 SIDE) float64
+        Scratch whose left half and first rows are zero.
     """
     last = degree_start(degree, 0)
     size = np.hypot(c[last - 2], c[last - 1])
-    _spread_out(c, degree, table)
     if size == 0.0:
         return
     a = c[last - 2] / size
     b = c[last - 1] / size
     tilt(frame, c[last - 2], c[last - 1])
     angle = np.arctan(size)
-    _spread_out(c, degree, middle)
+    spread_out(c, degree, table)
+    spread_out(c, degree, middle)
     _turn(table, middle, degree, 0.5 * angle, a, b, slope)
-    _clip(middle, degree)
     _turn(middle, table, degree, angle, a, b, slope)
-    _clip(table, degree)
-    table[1, 0] = 0.0
-    table[0, 1] = 0.0
     row = 1
     for d in range(degree, -1, -1):
         for j in range(d + 1):
             c[row] = table[d - j, j]
             row += 1
-
-
-@inner
-def _clip(table: Array, degree: int) -> None:
-    """Set the entries above the degree to zero."""
-    for i in range(SIDE):
-        for j in range(max(degree + 1 - i, 0), SIDE):
-            table[i, j] = 0.0
+    c[last - 2] = 0.0
+    c[last - 1] = 0.0
 
 
 @inner

@@ -27,7 +27,7 @@ from pdtheory.pointset.kernels.moments import (
 )
 from pdtheory.pointset.kernels.regression import degree_start
 from pdtheory.pointset.kernels.tables import SIDE
-from pdtheory.pointset.kernels.tilting import add_product
+from pdtheory.pointset.kernels.tilting import ROWS, add_product, spread_out
 
 #: Halvings of an interval after which a number in it is known to rounding, if it is not 1e-4 of it.
 _HALVINGS = 64
@@ -200,9 +200,10 @@ def prepare_covariances(
         w.powers[0, i] = 1.0 if i == 0 else -fit.cx * w.powers[0, i - 1]
         w.powers[1, i] = 1.0 if i == 0 else -fit.cy * w.powers[1, i - 1]
     if tangent:
+        spread_out(w.c, top, w.table)
         for i in range(SIDE):
             for j in range(SIDE):
-                w.slope[i, SIDE + j] = w.table[i, j]
+                w.slope[ROWS + i, SIDE + j] = w.table[i, j]
                 w.middle[i, j] = 0.0
         add_product(w.table, w.slope, top + 1, 1.0, w.middle)
     total = 0.0
