@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
@@ -9,67 +10,59 @@ import numpy as np
 from pdtheory.conventions import wavejets_table
 from pdtheory.pointset.cloud import FloatArray, IntArray
 from pdtheory.pointset.directions import OrderDirections
+from pdtheory.pointset.engine import Engine
 from pdtheory.pointset.field import DirectionField
-from pdtheory.pointset.kernels import results
-from pdtheory.pointset.kernels.results import Output
+from pdtheory.pointset.kernels.results import COLUMNS, make_columns, place
+from pdtheory.pointset.pool import Flag
+from pdtheory.pointset.selection import Selector
 
-#: Columns of numbers among those of the rows.
-_COLUMNS = {
-    "angle": results.ANGLE,
-    "eigenvalue": results.EIGENVALUE,
-    "strength": results.STRENGTH,
-    "angle_std": results.ANGLE_STD,
-    "eigenvalue_std": results.EIGENVALUE_STD,
-}
+#: Rows in a block of memory. Where the system has large pages it takes them for so large a block,
+#: which cost far less to touch first.
+BLOCK = 2**17
+
+
+class _Store:
+    """Keeps copies of rows; several threads may use it."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._free = np.empty((0, COLUMNS))
+
+    def keep(self, rows: FloatArray) -> FloatArray:
+        """Return a copy."""
+        with self._lock:
+            if len(self._free) < len(rows):
+                self._free = np.empty((max(BLOCK, len(rows)), COLUMNS))
+            copy, self._free = self._free[: len(rows)], self._free[len(rows) :]
+        copy[:] = rows
+        return copy
 
 
 class Collector:
-    """Takes chunks in any order and makes a :class:`DirectionField` of them.
+    """Takes the results of chunks in any order and makes a :class:`DirectionField` of them.
 
     Parameters
     ----------
+    engine : Engine or Selector
+        Computes them.
     points : (Q, 3) float64
         Where the directions are computed.
-    radius : (Q,) float64
-        Radius at each; filled in by the chunks.
     degree : int
         Degree asked for, which gives the columns of phi.
-    orders : (J,) int64
-        The orders.
     """
 
-    def __init__(self, points: FloatArray, degree: int, orders: IntArray) -> None:
-        size = len(points)
+    def __init__(self, engine: Engine | Selector, points: FloatArray, degree: int) -> None:
+        self._engine = engine
         self._points = points
-        self._orders = orders
         self._table = np.array(wavejets_table(degree), dtype=np.int64)
-        self._radius = np.empty(size)
-        self._frames = np.empty((size, 3, 3))
-        self._degree = np.empty(size, np.int64)
-        self._neighbours = np.empty(size, np.int64)
-        self._residual = np.empty(size)
-        self._condition = np.empty(size)
-        self._status = np.empty(size, np.int64)
-        self._phi = np.empty((size, len(self._table)), np.complex128)
-        self._counts = np.empty((len(orders), size), np.int64)
-        self._isotropic = np.empty((len(orders), size), np.bool_)
-        self._chunks: list[tuple[IntArray, FloatArray, IntArray]] = []
+        self._found = engine.make_found(len(points))
+        self._store = _Store()
+        self._chunks: list[tuple[IntArray, FloatArray]] = []
 
-    def add(self, where: IntArray, radii: FloatArray, output: Output, base: IntArray) -> None:
-        """Take the results for the queries `where`."""
-        jets, found = output
-        self._radius[where] = radii
-        self._frames[where] = jets.frames
-        self._degree[where] = jets.degree
-        self._neighbours[where] = jets.neighbours
-        self._residual[where] = jets.residual
-        self._condition[where] = jets.condition
-        self._status[where] = jets.status
-        self._phi[where] = jets.phi
-        self._counts[:, where] = found.counts
-        self._isotropic[:, where] = found.isotropic
-        # The rows are not copied: what a chunk has not used of them takes no memory.
-        self._chunks.append((where, found.rows, base))
+    def compute(self, where: IntArray, flag: Flag, slots: IntArray) -> None:
+        """Compute the queries `where`, which are the points `slots`; several threads may do so."""
+        rows = self._engine.work(where, flag, slots, self._found)
+        self._chunks.append((slots, self._store.keep(rows)))
 
     def field(self, threads: int = 1) -> DirectionField:
         """Return everything that was added as one field.
@@ -80,43 +73,33 @@ class Collector:
             Threads to put the orders together in.
         """
         with ThreadPoolExecutor(threads) as pool:
-            found = list(pool.map(self._directions, range(len(self._orders))))
+            orders = list(pool.map(self._directions, range(len(self._engine.orders))))
+        found = self._found
         return DirectionField(
             points=self._points,
-            frames=self._frames,
-            radius=self._radius,
-            degree=self._degree,
-            neighbours=self._neighbours,
-            residual_rms=self._residual,
-            condition=self._condition,
-            status=self._status,
-            phi=self._phi,
+            frames=found.frames,
+            radius=found.radius,
+            degree=found.degree,
+            neighbours=found.neighbours,
+            residual_rms=found.residual,
+            condition=found.condition,
+            status=found.status,
+            phi=found.phi,
             phi_order=self._table[:, 0],
             phi_frequency=self._table[:, 1],
-            directions={order.order: order for order in found},
+            directions={order.order: order for order in orders},
         )
 
     def _directions(self, j: int) -> OrderDirections:
         """Return the directions of one order."""
-        counts = self._counts[j]
-        offsets = np.concatenate(([0], np.cumsum(counts))).astype(np.int64)
-        total = int(offsets[-1])
-        columns = {name: np.empty(total) for name in _COLUMNS}
-        vector, kind = np.empty((total, 3)), np.empty(total, np.int8)
-        for where, rows, base in self._chunks:
-            here = counts[where]
-            last = np.cumsum(here)
-            target = np.repeat(offsets[where] - last + here, here) + np.arange(int(here.sum()))
-            rows = rows[base[j] : base[j] + len(target)]
-            for name, number in _COLUMNS.items():
-                columns[name][target] = rows[:, number]
-            vector[target] = rows[:, results.VECTOR : results.VECTOR + 3]
-            kind[target] = rows[:, results.KIND]
+        counts = self._found.counts
+        offsets = np.concatenate(([0], np.cumsum(counts[j])))
+        columns = make_columns(int(offsets[-1]))
+        for slots, rows in self._chunks:
+            place(rows[int(counts[:j, slots].sum()) :], slots, offsets, columns)
         return OrderDirections(
-            order=int(self._orders[j]),
+            order=int(self._engine.orders[j]),
             offsets=offsets,
-            vector=vector,
-            kind=kind,
-            isotropic=self._isotropic[j],
-            **columns,
+            isotropic=self._found.isotropic[j],
+            **columns._asdict(),
         )

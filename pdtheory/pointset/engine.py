@@ -8,6 +8,7 @@ from copy import copy
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from pdtheory.conventions import wavejets_table
 from pdtheory.pointset.cloud import FloatArray, IntArray
@@ -18,7 +19,7 @@ from pdtheory.pointset.kernels.fit import Settings
 from pdtheory.pointset.kernels.grid import Grid, build_grid, cell_order
 from pdtheory.pointset.kernels.lanes import LANES
 from pdtheory.pointset.kernels.moments import CLOUD_ROWS
-from pdtheory.pointset.kernels.results import Output, make_directions, make_jets
+from pdtheory.pointset.kernels.results import COLUMNS, Found, Traces, make_found
 from pdtheory.pointset.kernels.tables import WORKSPACE, aligned, make_record, make_tables
 from pdtheory.pointset.neighbourhoods import Choice, nearest, refuse_crowd
 from pdtheory.pointset.pool import Flag
@@ -38,13 +39,14 @@ class _Memory(threading.local):
         self.workspace = make_record(WORKSPACE)
         self.bench = make_record(BENCH)
         self.cloud = aligned(CLOUD_ROWS, _CAPACITY)
-        self.covariance = np.empty(0)
+        self._arrays: dict[str, FloatArray] = {}
 
-    def covariances(self, size: int, entries: int) -> FloatArray:
-        """Return an array of shape (size, entries) with any contents."""
-        if len(self.covariance) < size * entries:
-            self.covariance = np.empty(size * entries)
-        return self.covariance[: size * entries].reshape(size, entries)
+    def array(self, name: str, size: int, columns: int) -> FloatArray:
+        """Return an array of shape (size, columns) with any contents."""
+        count = size * columns
+        if name not in self._arrays or len(self._arrays[name]) < count:
+            self._arrays[name] = np.empty(count)
+        return self._arrays[name][:count].reshape(size, columns)
 
 
 class Engine:
@@ -109,7 +111,7 @@ class Engine:
             self._tree = kd_tree(points[order])
         else:
             refuse_crowd(int(np.diff(self._grid.starts).max()), choice)
-        self._valid = finite_rows(queries)
+        self._valid: npt.NDArray[np.bool_] = finite_rows(queries)
         self.queries = np.where(self._valid[:, None], queries, 0.0)
         self.references = references()
         same = np.array_equal(self.queries, points)
@@ -123,41 +125,59 @@ class Engine:
         other._columns = len(wavejets_table(degree))
         return other
 
-    def rows(self, size: int) -> IntArray:
-        """Return the first output row of each order for a chunk of `size` points."""
-        return size * np.concatenate(([0], np.cumsum(2 * self.orders)[:-1])).astype(np.int64)
+    def make_found(self, size: int) -> Found:
+        """Allocate the results of `size` queries."""
+        return make_found(size, len(self.orders), self._columns)
 
     def warm_up(self) -> None:
         """Compile or load the kernels in this thread, where Ctrl-C can interrupt that."""
-        self.work(0, 0, np.zeros(1, np.uint8))
+        none = np.empty(0, np.int64)
+        self.work(none, np.zeros(1, np.uint8), none, self.make_found(0))
 
-    def work(self, start: int, stop: int, flag: Flag) -> tuple[FloatArray, Output]:
-        """Compute the queries ``visit[start:stop]``; returns their radii and the results."""
-        where = self.visit[start:stop]
-        queries = self.queries[where]
+    def work(self, where: IntArray, flag: Flag, slots: IntArray, found: Found) -> FloatArray:
+        """Compute some queries.
+
+        Parameters
+        ----------
+        where : (C,) int64
+            Their numbers, best in the order of `visit`.
+        flag : (1,) uint8
+            Set to non-zero by another thread to end the work.
+        slots : (C,) int64
+            Where their results go.
+        found : Found
+            Receives them.
+
+        Returns
+        -------
+        (M, COLUMNS) float64
+            The directions: order by order and, in each, query by query. The next call in this
+            thread writes over them.
+        """
         size = len(where)
         if self._tree is None:
             lists = np.empty((0, 0), np.int64)
-            radii = np.full(size, self.choice.radius)
+            found.radius[slots] = self.choice.radius
         else:
-            radii, lists = nearest(self._tree, queries, self.choice.neighbours or 0)
-            # A strided view would be another type, for which everything is compiled once more.
-            radii = np.ascontiguousarray(radii)
+            radii, lists = nearest(self._tree, self.queries[where], self.choice.neighbours or 0)
+            found.radius[slots] = radii
         memory = self._memory
         entries = int(((self.orders + 1) ** 2).sum()) if self.settings.uncertainty else 0
-        covariance = memory.covariances(size, entries)
-        jets = make_jets(size, self.orders, self._columns, covariance)
-        directions = make_directions(size, self.orders)
+        traces = Traces(
+            memory.array("turn", size, 2),
+            memory.array("blur", size, len(self.orders)),
+            memory.array("covariance", size, entries),
+        )
         tables = make_tables()
         begin = 0
         while True:
             done = fit_chunk(
                 self._grid,
-                queries,
-                radii,
-                self.references[where],
+                self.queries,
+                self.references,
+                self._valid,
+                where,
                 lists,
-                self._valid[where],
                 self.orders,
                 self._reach,
                 self._rounding,
@@ -168,22 +188,15 @@ class Engine:
                 memory.cloud,
                 flag,
                 begin,
-                jets,
+                traces,
+                slots,
+                found,
             )
             if done >= 0:
                 break
             begin = -1 - done
-            capacity = 2 * int(jets.neighbours[begin]) // LANES * LANES
+            capacity = 2 * int(found.neighbours[slots[begin]]) // LANES * LANES
             memory.cloud = aligned(CLOUD_ROWS, capacity)
-        find_directions(
-            jets,
-            radii,
-            self.orders,
-            self.rows(size),
-            tables,
-            memory.bench,
-            flag,
-            directions,
-        )
-        # The next chunk overwrites the covariances.
-        return radii, Output(jets._replace(covariance=covariance[:0]), directions)
+        rows = memory.array("rows", size * int(2 * self.orders.sum()), COLUMNS)
+        count = find_directions(self.orders, tables, memory.bench, flag, traces, slots, found, rows)
+        return rows[:count]

@@ -15,7 +15,7 @@ from pdtheory.pointset.engine import Engine
 from pdtheory.pointset.field import DirectionField
 from pdtheory.pointset.neighbourhoods import suggest_radius
 from pdtheory.pointset.options import Options, shows_options_of
-from pdtheory.pointset.pool import run_spans, spans
+from pdtheory.pointset.pool import Flag, run_spans, spans
 from pdtheory.pointset.prepare import prepare
 from pdtheory.pointset.selection import Selector
 
@@ -108,11 +108,15 @@ def estimate_directions(
     if run.progress is not None:
         run.progress(0.0, PREPARING)
     engine.warm_up()
-    collector = Collector(run.places, run.degree, run.orders)
+    collector = Collector(engine, run.places, run.degree)
+
+    def work(start: int, stop: int, flag: Flag) -> None:
+        where = engine.visit[start:stop]
+        collector.compute(where, flag, where)
+
     todo = spans(0, len(run.places), CHUNK)
-    chunks = run_spans(engine.work, todo, run.threads, run.progress, "estimating directions")
-    for start, stop, (radii, output) in chunks:
-        collector.add(engine.visit[start:stop], radii, output, engine.rows(stop - start))
+    for _ in run_spans(work, todo, run.threads, run.progress, "estimating directions"):
+        pass
     result = collector.field(run.threads)
     refuse_nothing(result.status, result.neighbours, engine)
     return result

@@ -28,13 +28,7 @@ import numpy.typing as npt
 from pdtheory.conventions import UNANSWERED, wavejets_table
 from pdtheory.pointset.cloud import FloatArray, IntArray
 from pdtheory.pointset.engine import Engine
-from pdtheory.pointset.kernels.results import (
-    EIGENVALUE_STD,
-    Directions,
-    Output,
-    make_directions,
-    make_jets,
-)
+from pdtheory.pointset.kernels.results import COLUMNS, EIGENVALUE_STD, Found, make_found
 from pdtheory.pointset.pool import Flag
 
 #: Standard deviations by which g_k may differ from that of a candidate with less bias, where the
@@ -45,7 +39,7 @@ PRICE = 3.0
 #: Highest degree that is tried, unless the orders ask for more.
 HIGHEST = 10
 #: What is handed on of the fits beside their coefficients.
-_KEPT = ("frames", "degree", "neighbours", "residual", "noise", "condition", "status")
+_KEPT = ("frames", "radius", "degree", "neighbours", "residual", "noise", "condition", "status")
 
 
 def candidate_degrees(orders: Sequence[int] | IntArray, largest: int) -> list[int]:
@@ -70,19 +64,19 @@ class _Result(NamedTuple):
     """What one candidate found in one chunk."""
 
     degree: int
-    radii: FloatArray
-    output: Output
+    found: Found
+    rows: FloatArray
 
     @property
     def able(self) -> npt.NDArray[np.bool_]:
         """(Q,) whether there is an answer with the degree asked for."""
-        jets = self.output.jets
-        return ((jets.status & int(UNANSWERED)) == 0) & (jets.degree == self.degree)
+        answered = (self.found.status & int(UNANSWERED)) == 0
+        return answered & (self.found.degree == self.degree)
 
     @property
     def score(self) -> FloatArray:
         """(Q,) how badly the heights are described, coefficients paid for; -inf if exactly."""
-        squared, noise = self.output.jets.residual**2, self.output.jets.noise**2
+        squared, noise = self.found.residual**2, self.found.noise**2
         with np.errstate(divide="ignore", invalid="ignore"):
             # noise^2 = r^2 / (1 - t), so t / (1 - t) follows from the two.
             score = np.log(squared) + PRICE * (noise / squared - 1.0)
@@ -101,7 +95,7 @@ class Selector:
 
     Attributes
     ----------
-    points, queries, references, orders, visit, rows
+    points, queries, references, orders, visit
         As for :class:`pdtheory.pointset.engine.Engine`.
     choice, settings
         Those of the candidate that asks least: lowest degree, largest radius.
@@ -118,7 +112,6 @@ class Selector:
         self.references = first.references
         self.orders = first.orders
         self.visit = first.visit
-        self.rows = first.rows
         self.choice = first.choice
         self.settings = first.settings
         self.degree = max(engine.settings.degree for engine in engines)
@@ -129,15 +122,22 @@ class Selector:
         """Compile or load the kernels in this thread, where Ctrl-C can interrupt that."""
         self._engines[0].warm_up()
 
-    def work(self, start: int, stop: int, flag: Flag) -> tuple[FloatArray, Output]:
-        """Compute the queries ``visit[start:stop]``; returns their radii and the results."""
-        results, witnesses = (
-            [_Result(engine.settings.degree, *engine.work(start, stop, flag)) for engine in engines]
-            for engines in (self._engines, self._witnesses)
-        )
-        chosen = self._choose(results, witnesses)
-        radii = np.array([result.radii for result in results])[chosen, np.arange(len(chosen))]
-        return radii, self._merge(chosen, results)
+    def make_found(self, size: int) -> Found:
+        """Allocate the results of `size` queries."""
+        return make_found(size, len(self.orders), len(wavejets_table(self.degree)))
+
+    def work(self, where: IntArray, flag: Flag, slots: IntArray, found: Found) -> FloatArray:
+        """Compute some queries; see :meth:`pdtheory.pointset.engine.Engine.work`."""
+
+        def ask(engine: Engine) -> _Result:
+            own = engine.make_found(len(where))
+            # All engines work in the same memory.
+            rows = engine.work(where, flag, np.arange(len(where)), own).copy()
+            return _Result(engine.settings.degree, own, rows)
+
+        results = [ask(engine) for engine in self._engines]
+        chosen = self._choose(results, [ask(engine) for engine in self._witnesses])
+        return self._merge(chosen, results, slots, found)
 
     def _choose(self, results: Sequence[_Result], witnesses: Sequence[_Result]) -> IntArray:
         """Return the number of the best candidate at each point, the first if none answers."""
@@ -146,23 +146,19 @@ class Selector:
         tolerance = np.array([self._tolerance(one, (*results, *witnesses)) for one in results])
         tenable = able.copy()
         spread = np.zeros(able.shape)
-        scale = results[0].radii
-        base = self.rows(len(scale))
+        scale = results[0].found.radius
         for j, order in enumerate(self.orders):
             unit = scale ** (order - 1.0)
             g = [_row_of_order(result, int(order)) * unit[:, None] for result in results]
-            variance = [
-                _variance(result.output.directions, base, j, unit / factorial(order))
-                for result in results
-            ]
-            isotropic = [result.output.directions.isotropic[j] for result in results]
+            variance = [_variance(result, j, unit / factorial(order)) for result in results]
+            isotropic = [result.found.isotropic[j] for result in results]
             # Zero is a candidate without noise.
             spread += np.log(np.clip(variance, 1e-300, 1e300))
             for i, one in enumerate(results):
                 for other, two in enumerate(results):
                     if i == other or two.degree < one.degree:
                         continue
-                    better = able[other] & (two.radii <= one.radii)
+                    better = able[other] & (two.found.radius <= one.found.radius)
                     both_round = isotropic[i] & isotropic[other]
                     difference = np.sum(np.abs(g[i] - g[other]) ** 2, axis=1)
                     with np.errstate(invalid="ignore"):
@@ -173,7 +169,7 @@ class Selector:
 
     def _tolerance(self, one: _Result, others: Sequence[_Result]) -> FloatArray:
         """Return the standard deviations that differences to better candidates may have."""
-        size = len(one.radii)
+        size = len(one.found.radius)
         if self.settings.robust:
             # The residuals of l1 follow no law that degrees could be compared by.
             return np.full(size, UNKNOWN)
@@ -181,35 +177,33 @@ class Selector:
         biased = np.zeros(size, np.bool_)
         for two in others:
             if two.degree > one.degree:
-                here = two.able & (two.radii == one.radii)
+                here = two.able & (two.found.radius == one.found.radius)
                 asked |= here
                 biased |= here & (two.score < one.score)
         return np.where(asked, np.where(biased, BIASED, np.inf), UNKNOWN)
 
-    def _merge(self, chosen: IntArray, results: Sequence[_Result]) -> Output:
-        """Return the output with the rows of the chosen candidate at each point."""
-        size = len(chosen)
-        columns = len(wavejets_table(self.degree))
-        jets = make_jets(size, self.orders, columns, np.empty((size, 0)))
-        merged = make_directions(size, self.orders)
-        base = self.rows(size)
+    def _merge(
+        self, chosen: IntArray, results: Sequence[_Result], slots: IntArray, found: Found
+    ) -> FloatArray:
+        """Write what the chosen candidate found at each point; returns the rows of these."""
         for number, result in enumerate(results):
             here = np.flatnonzero(chosen == number)
-            fits, found = result.output
+            there, own = slots[here], result.found
             for name in _KEPT:
-                getattr(jets, name)[here] = getattr(fits, name)[here]
+                getattr(found, name)[there] = getattr(own, name)[here]
             # Zero above the degree, NaN where there is no answer.
-            jets.phi[here] = np.where(np.isnan(fits.phi[here, :1]), np.nan, 0.0)
-            jets.phi[here, : fits.phi.shape[1]] = fits.phi[here]
-            merged.counts[:, here] = found.counts[:, here]
-            merged.isotropic[:, here] = found.isotropic[:, here]
-        for j in range(len(self.orders)):
-            for number, result in enumerate(results):
-                here = np.flatnonzero(chosen == number)
-                found = result.output.directions
-                target = base[j] + _rows_of(merged.counts[j], here)
-                merged.rows[target] = found.rows[base[j] + _rows_of(found.counts[j], here)]
-        return Output(jets, merged)
+            found.phi[there] = np.where(np.isnan(own.phi[here, :1]), np.nan, 0.0)
+            found.phi[there, : own.phi.shape[1]] = own.phi[here]
+            found.counts[:, there] = own.counts[:, here]
+            found.isotropic[:, there] = own.isotropic[:, here]
+        # The rows stand order by order, so the counts of all orders in turn tell where.
+        counts = found.counts[:, slots].ravel()
+        rows = np.empty((int(counts.sum()), COLUMNS))
+        for number, result in enumerate(results):
+            here = np.flatnonzero(np.tile(chosen == number, len(self.orders)))
+            own_rows = result.rows[_rows_of(result.found.counts.ravel(), here)]
+            rows[_rows_of(counts, here)] = own_rows
+        return rows
 
 
 def _rows_of(counts: IntArray, points: IntArray) -> IntArray:
@@ -224,15 +218,15 @@ def _row_of_order(result: _Result, order: int) -> npt.NDArray[np.complex128]:
     """Return phi_{k,n} scaled so that squares add up to the mean of g_k^2 over the angle."""
     table = np.array(wavejets_table(result.degree))
     columns = np.flatnonzero(table[:, 0] == order)
-    return result.output.jets.phi[:, columns] * np.where(table[columns, 1] == 0, 1.0, np.sqrt(2.0))
+    return result.found.phi[:, columns] * np.where(table[columns, 1] == 0, 1.0, np.sqrt(2.0))
 
 
-def _variance(found: Directions, base: IntArray, j: int, unit: FloatArray) -> FloatArray:
+def _variance(result: _Result, j: int, unit: FloatArray) -> FloatArray:
     """Return the variance of the order's g, the mean over its directions; 0 if it is isotropic."""
-    counts = found.counts[j]
-    rows = slice(int(base[j]), int(base[j] + counts.sum()))
+    counts = result.found.counts[j]
+    start = int(result.found.counts[:j].sum())
     point = np.repeat(np.arange(len(counts)), counts)
-    std = found.rows[rows, EIGENVALUE_STD] * unit[point]
+    std = result.rows[start : start + len(point), EIGENVALUE_STD] * unit[point]
     total = np.bincount(point, std**2, len(counts))
     mean = np.divide(total, counts, out=np.full(len(counts), np.inf), where=counts > 0)
-    return np.where(found.isotropic[j], 0.0, mean)
+    return np.where(result.found.isotropic[j], 0.0, mean)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import os
+import threading
 from collections.abc import Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
@@ -17,7 +18,7 @@ from pdtheory.pointset.cloud import IntArray, PointCloud
 from pdtheory.pointset.estimate import CHUNK, PREPARING, refuse_nothing
 from pdtheory.pointset.options import Options, shows_options_of
 from pdtheory.pointset.parts import load_column, open_folder, part_path, write_part
-from pdtheory.pointset.pool import run_spans, spans
+from pdtheory.pointset.pool import Flag, run_spans, spans
 from pdtheory.pointset.prepare import Run, prepare
 
 #: Queries in one part.
@@ -104,22 +105,27 @@ def _computed(
     """Yield number, queries and results of each missing part as soon as all its chunks are done."""
     engine = run.engine
     owner: dict[tuple[int, int], int] = {}
+    lock = threading.Lock()
     for number in missing:
         owner |= dict.fromkeys(spans(*blocks[number], CHUNK), number)
     left = {number: len(spans(*blocks[number], CHUNK)) for number in missing}
     open_parts: dict[int, Collector] = {}
-    chunks = run_spans(engine.work, list(owner), run.threads, report, "estimating directions")
-    for start, stop, (radii, output) in chunks:
+
+    def work(start: int, stop: int, flag: Flag) -> None:
         number = owner[start, stop]
         first, last = blocks[number]
-        where = engine.visit[first:last]
-        if number not in open_parts:
-            open_parts[number] = Collector(run.places[where], run.degree, run.orders)
-        rows = np.arange(start - first, stop - first)
-        open_parts[number].add(rows, radii, output, engine.rows(stop - start))
+        with lock:
+            if number not in open_parts:
+                places = run.places[engine.visit[first:last]]
+                open_parts[number] = Collector(engine, places, run.degree)
+        slots = np.arange(start - first, stop - first)
+        open_parts[number].compute(engine.visit[start:stop], flag, slots)
+
+    for span in run_spans(work, list(owner), run.threads, report, "estimating directions"):
+        number = owner[span[:2]]
         left[number] -= 1
         if not left[number]:
-            yield number, where, open_parts.pop(number)
+            yield number, engine.visit[slice(*blocks[number])], open_parts.pop(number)
 
 
 def _write(folder: Path, number: int, where: IntArray, collector: Collector) -> None:

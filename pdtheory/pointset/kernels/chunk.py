@@ -14,7 +14,7 @@ from pdtheory.pointset.kernels.jit import Array, IntArray, inner, kernel
 from pdtheory.pointset.kernels.lanes import LANES, Lanes, Rows, emit
 from pdtheory.pointset.kernels.moments import SQUARED
 from pdtheory.pointset.kernels.regression import degree_start
-from pdtheory.pointset.kernels.results import Jets
+from pdtheory.pointset.kernels.results import Found, Traces
 from pdtheory.pointset.kernels.reweighting import fit_robustly
 from pdtheory.pointset.kernels.tables import MAX_DEGREE, SIDE
 from pdtheory.pointset.kernels.uncertainty import (
@@ -96,6 +96,22 @@ def _write_phi(
 
 
 @inner
+def _leave_open(out: Found, slot: int, neighbours: int, status: int) -> None:
+    """Write that there is no answer at a point."""
+    for axis in range(3):
+        for i in range(3):
+            out.frames[slot, axis, i] = np.nan
+    out.degree[slot] = 0
+    out.neighbours[slot] = neighbours
+    out.residual[slot] = np.nan
+    out.noise[slot] = np.nan
+    out.condition[slot] = np.nan
+    out.status[slot] = status
+    for i in range(out.phi.shape[1]):
+        out.phi[slot, i] = complex(np.nan, 0.0)
+
+
+@inner
 def _blur(fit: Fit, order: int, level: float, w: Any) -> float:
     """Size that rounding of the heights by `level` may give to the coefficients of one order."""
     start = degree_start(fit.top, order)
@@ -141,10 +157,10 @@ def _write_covariances(
 def fit_chunk(
     grid: Grid,
     queries: Array,
-    radii: Array,
     references: Array,
-    lists: IntArray,
     valid: Any,
+    where: IntArray,
+    lists: IntArray,
     orders: IntArray,
     reach: float,
     coordinate_rounding: float,
@@ -155,24 +171,26 @@ def fit_chunk(
     cloud: Array,
     stop: Any,
     begin: int,
-    out: Jets,
+    traces: Traces,
+    slots: IntArray,
+    out: Found,
 ) -> int:
-    """Fit the points of a chunk from number `begin` on.
+    """Fit the C points of a chunk from number `begin` on.
 
     Parameters
     ----------
     grid : Grid
         All points.
     queries : (Q, 3) float64
-        Where to compute.
-    radii : (Q,) float64
-        Radius at each.
+        All queries.
     references : (Q, 3) float64
         Vectors that say on which side the normals are.
-    lists : (Q, N) int64 or (0, 0)
-        Neighbours as columns of ``grid.columns``; empty to look them up within the radius.
     valid : (Q,) bool
         False where the query is not finite.
+    where : (C,) int64
+        Numbers of the queries of the chunk.
+    lists : (C, N) int64 or (0, 0)
+        Neighbours as columns of ``grid.columns``; empty to look them up within the radius.
     orders : (J,) int64
         Orders that covariances are wanted for, ascending.
     reach : float
@@ -191,8 +209,12 @@ def fit_chunk(
         Set to non-zero by another thread to end the work.
     begin : int
         Number of points that are done.
-    out : Jets
-        The results.
+    traces : Traces
+        Filled in for the points of the chunk.
+    slots : (C,) int64
+        Where in `out` their results go.
+    out : Found
+        Everything but ``counts`` and ``isotropic`` is filled in for them; ``radius`` is there.
 
     Returns
     -------
@@ -206,62 +228,65 @@ def fit_chunk(
     last[0] = -(2**60)
     count = total = 0
     tangent = settings.frame == FRAME_TANGENT
-    for q in range(begin, len(queries)):
+    for q in range(begin, len(where)):
         if stop[0] != 0:
             return q
-        if not valid[q]:
-            out.status[q] = _NON_FINITE
+        slot = slots[q]
+        if not valid[where[q]]:
+            _leave_open(out, slot, 0, _NON_FINITE)
             continue
-        radius = radii[q]
+        query = queries[where[q]]
+        reference = references[where[q]]
+        radius = out.radius[slot]
         if lists.shape[0] > 0:
             total = lists.shape[1]
         else:
-            locate(grid, queries[q], here)
+            locate(grid, query, here)
             if here[0] != last[0] or here[1] != last[1] or here[2] != last[2]:
                 for axis in range(3):
                     last[axis] = here[axis]
                 count, total = find_runs(grid, here[0], here[1], here[2], runs)
         if total + LANES > cloud.shape[1]:
-            out.neighbours[q] = total + LANES
+            out.neighbours[slot] = total + LANES
             return -1 - q
         if not radius > 0.0:
-            out.neighbours[q] = total
-            out.status[q] = _UNANSWERED
+            _leave_open(out, slot, total, _UNANSWERED)
             continue
         if lists.shape[0] > 0:
-            points = gather_listed(grid.columns, lists[q], queries[q], radius, cloud)
+            points = gather_listed(grid.columns, lists[q], query, radius, cloud)
         else:
-            points = int(gather(grid.columns, runs, count, queries[q], reach, radius, cloud))
+            points = int(gather(grid.columns, runs, count, query, reach, radius, cloud))
         n = points
         while n % LANES:
-            for row in range(SQUARED):
-                cloud[row, n] = 0.0
+            for axis in range(3):
+                cloud[axis, n] = 0.0
             cloud[SQUARED, n] = OUTSIDE
             n += 1
-        fit = fit_point(cloud, points, n, references[q], settings, w)
+        fit = fit_point(cloud, points, n, reference, settings, w)
         # Numba leaves out a branch on None only if nothing else is asked with it.
         if robust is not None:  # noqa: SIM102
             if not fit.status & _UNANSWERED:
                 fit = fit_robustly(cloud, n, fit, w)
-        out.neighbours[q] = fit.neighbours
         if fit.status & _UNANSWERED:
-            out.status[q] = fit.status
+            _leave_open(out, slot, fit.neighbours, fit.status)
             continue
-        out.status[q] = finish(fit, tangent, w)
-        c, s = output_frame(w.frame, out.frames[q])
-        out.turn[q, 0] = c
-        out.turn[q, 1] = s
-        out.degree[q] = fit.degree
-        out.residual[q] = fit.residual * radius
-        out.condition[q] = fit.pivot
-        _write_phi(w.c, fit, c, s, radius, tables, w, out.phi[q])
+        out.neighbours[slot] = fit.neighbours
+        out.status[slot] = finish(fit, tangent, w)
+        c, s = output_frame(w.frame, out.frames[slot])
+        traces.turn[q, 0] = c
+        traces.turn[q, 1] = s
+        out.degree[slot] = fit.degree
+        out.residual[slot] = fit.residual * radius
+        out.noise[slot] = np.nan
+        out.condition[slot] = fit.pivot
+        _write_phi(w.c, fit, c, s, radius, tables, w, out.phi[slot])
         level = 2.3e-16 + coordinate_rounding / radius
         for j in range(len(orders)):
             if orders[j] <= fit.degree:
-                out.blur[q, j] = _blur(fit, orders[j], level, w)
+                traces.blur[q, j] = _blur(fit, orders[j], level, w)
         if settings.uncertainty:
             noise = _write_covariances(
-                cloud, n, fit, orders, settings, robust, tables, w, out.covariance[q]
+                cloud, n, fit, orders, settings, robust, tables, w, traces.covariance[q]
             )
-            out.noise[q] = noise * radius
-    return len(queries)
+            out.noise[slot] = noise * radius
+    return len(where)

@@ -9,7 +9,7 @@ import numpy as np
 from pdtheory.pointset.kernels import results
 from pdtheory.pointset.kernels.jit import Array, IntArray, inner, kernel
 from pdtheory.pointset.kernels.lanes import LANES
-from pdtheory.pointset.kernels.results import Directions, Jets
+from pdtheory.pointset.kernels.results import Found, Traces
 from pdtheory.pointset.kernels.roots import (
     ANGLE,
     COEFFICIENTS,
@@ -107,11 +107,11 @@ def _bracket(
     j: int,
     order: int,
     column: int,
-    radii: Array,
-    jets: Jets,
+    traces: Traces,
+    slots: IntArray,
+    out: Found,
     tables: Any,
     bench: Any,
-    out: Directions,
 ) -> int:
     """Write the brackets of the angles of some points to the table; returns their number.
 
@@ -121,16 +121,18 @@ def _bracket(
     total = 0
     for q in range(start, end):
         bench.found[q - start] = 0
-        if not jets.degree[q] >= order:
+        slot = slots[q]
+        out.isotropic[j, slot] = False
+        if not out.degree[slot] >= order:
             continue
         scale = 1.0
         for _ in range(order - 1):
-            scale *= radii[q]
+            scale *= out.radius[slot]
         bench.scale[q - start] = scale
-        largest, swing = _scale_term(jets.phi[q], column, order, scale, bench)
+        largest, swing = _scale_term(out.phi[slot], column, order, scale, bench)
         bench.largest[q - start] = largest
-        if swing <= jets.blur[q, j]:
-            out.isotropic[j, q] = True
+        if swing <= traces.blur[q, j]:
+            out.isotropic[j, slot] = True
             continue
         found = bracket_angles(
             bench.re,
@@ -158,10 +160,12 @@ def _store(
     order: int,
     entry: int,
     factorial: float,
-    jets: Jets,
+    traces: Traces,
+    slots: IntArray,
+    out: Found,
     bench: Any,
     row: int,
-    out: Directions,
+    rows: Array,
 ) -> int:
     """Write the directions of some points from `row` on; returns the first row behind them.
 
@@ -169,11 +173,12 @@ def _store(
     """
     mirror = -1.0 if order % 2 else 1.0
     table = bench.table
-    uncertain = jets.covariance.shape[1] > 0
+    uncertain = traces.covariance.shape[1] > 0
     at = 0
     for q in range(start, end):
         count = int(bench.found[q - start])
-        out.counts[j, q] = 2 * count
+        slot = slots[q]
+        out.counts[j, slot] = 2 * count
         if count == 0:
             continue
         unit = factorial / bench.scale[q - start]
@@ -185,10 +190,10 @@ def _store(
             angle_std = np.nan
             g_std = np.nan
             if uncertain:
-                turn_c = jets.turn[q, 0]
-                turn_s = jets.turn[q, 1]
+                turn_c = traces.turn[q, 0]
+                turn_s = traces.turn[q, 1]
                 slope, g_std = _deviations(
-                    jets.covariance[q],
+                    traces.covariance[q],
                     entry,
                     order,
                     c * turn_c - s * turn_s,
@@ -201,15 +206,15 @@ def _store(
                 to = row + i + half * count
                 sign = mirror if half else 1.0
                 way = -1.0 if half else 1.0
-                out.rows[to, results.ANGLE] = table[ANGLE, at] + half * np.pi
+                rows[to, results.ANGLE] = table[ANGLE, at] + half * np.pi
                 for axis in range(3):
-                    along = c * jets.frames[q, 0, axis] + s * jets.frames[q, 1, axis]
-                    out.rows[to, results.VECTOR + axis] = way * along
-                out.rows[to, results.EIGENVALUE] = sign * g * unit
-                out.rows[to, results.STRENGTH] = abs(g)
-                out.rows[to, results.ANGLE_STD] = angle_std
-                out.rows[to, results.EIGENVALUE_STD] = g_std * unit
-                out.rows[to, results.KIND] = sign * bench.kind[at]
+                    along = c * out.frames[slot, 0, axis] + s * out.frames[slot, 1, axis]
+                    rows[to, results.VECTOR + axis] = way * along
+                rows[to, results.EIGENVALUE] = sign * g * unit
+                rows[to, results.STRENGTH] = abs(g)
+                rows[to, results.ANGLE_STD] = angle_std
+                rows[to, results.EIGENVALUE_STD] = g_std * unit
+                rows[to, results.KIND] = sign * bench.kind[at]
             at += 1
         row += 2 * count
     return row
@@ -217,46 +222,51 @@ def _store(
 
 @kernel
 def find_directions(
-    jets: Jets,
-    radii: Array,
     orders: IntArray,
-    base: IntArray,
     tables: Any,
     bench: Any,
     stop: Any,
-    out: Directions,
-) -> None:
-    """Find the directions of a chunk of jets.
+    traces: Traces,
+    slots: IntArray,
+    out: Found,
+    rows: Array,
+) -> int:
+    """Find the directions at the C points of a chunk.
 
     Parameters
     ----------
-    jets : Jets
-        From `fit_chunk`.
-    radii : (Q,) float64
-        Radius at each point.
-    orders, base : (J,) int64
-        Orders, ascending, and the first row of each in the output.
+    orders : (J,) int64
+        Orders, ascending.
     tables, bench : records of TABLES and BENCH
         Constants and working memory.
     stop : (1,) uint8
         Set to non-zero by another thread to end the work.
-    out : Directions
-        The results.
+    traces, slots, out
+        As `fit_chunk` leaves them; ``counts`` and ``isotropic`` are filled in.
+    rows : (>= 2 C sum of orders, COLUMNS) float64
+        Receives the directions, order by order and, in each, point by point.
+
+    Returns
+    -------
+    int
+        Number of directions.
     """
     entry = 0
+    row = 0
     for j in range(len(orders)):
         order = orders[j]
         column = 0
         for k in range(order):
             column += k // 2 + 1
-        row = base[j]
-        for start in range(0, len(radii), BATCH):
+        for start in range(0, len(slots), BATCH):
             if stop[0] != 0:
-                return
-            end = min(start + BATCH, len(radii))
-            total = _bracket(start, end, j, order, column, radii, jets, tables, bench, out)
+                return row
+            end = min(start + BATCH, len(slots))
+            total = _bracket(start, end, j, order, column, traces, slots, out, tables, bench)
             polish(bench.table, order, total)
+            factorial = tables.factorial[order]
             row = _store(
-                start, end, j, order, entry, tables.factorial[order], jets, bench, row, out
+                start, end, j, order, entry, factorial, traces, slots, out, bench, row, rows
             )
         entry += (order + 1) * (order + 1)
+    return row

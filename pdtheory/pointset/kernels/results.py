@@ -1,4 +1,4 @@
-"""What the kernels hand over: jets, directions, and both together."""
+"""What the kernels hand over: what is found at each point, and the rows of its directions."""
 
 from __future__ import annotations
 
@@ -6,14 +6,18 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from pdtheory.pointset.kernels.jit import Array, IntArray, kernel
 
-class Jets(NamedTuple):
-    """Fits of Q points, J orders.
+
+class Found(NamedTuple):
+    """What is found at Q points in J orders.
 
     Attributes
     ----------
     frames : (Q, 3, 3) float64
         Frames handed out.
+    radius : (Q,) float64
+        Radius of the neighbourhood.
     degree, neighbours, status : (Q,) int64
         Degree used, points within the radius, flags.
     residual, noise, condition : (Q,) float64
@@ -21,15 +25,14 @@ class Jets(NamedTuple):
         in world units; smallest relative pivot.
     phi : (Q, M) complex128
         All Wavejets coefficients in these frames, in world units.
-    turn : (Q, 2) float64
-        Cosine and sine of the angle of t1 in the frame of the fit.
-    blur : (Q, J) float64
-        Size that rounding may give to the coefficients of an order, in units of the radius.
-    covariance : (Q, sum of (k + 1)^2) float64
-        For each order the covariance of c_{k-b,b} in the frame of the fit, in units of the radius.
+    counts : (J, Q) int64
+        Number of directions.
+    isotropic : (J, Q) bool
+        Where an order is constant.
     """
 
     frames: Any
+    radius: Any
     degree: Any
     neighbours: Any
     residual: Any
@@ -37,62 +40,101 @@ class Jets(NamedTuple):
     condition: Any
     status: Any
     phi: Any
+    counts: Any
+    isotropic: Any
+
+
+def make_found(size: int, orders: int, columns: int) -> Found:
+    """Allocate what the kernels fill in for `size` points, with any contents."""
+    return Found(
+        np.empty((size, 3, 3)),
+        np.empty(size),
+        np.empty(size, np.int64),
+        np.empty(size, np.int64),
+        np.empty(size),
+        np.empty(size),
+        np.empty(size),
+        np.empty(size, np.int64),
+        np.empty((size, columns), np.complex128),
+        np.empty((orders, size), np.int64),
+        np.empty((orders, size), np.bool_),
+    )
+
+
+class Traces(NamedTuple):
+    """What the directions of Q points need to know of the fits beside their results.
+
+    Attributes
+    ----------
+    turn : (Q, 2) float64
+        Cosine and sine of the angle of t1 in the frame of the fit.
+    blur : (Q, J) float64
+        Size that rounding may give to the coefficients of an order, in units of the radius.
+    covariance : (Q, sum of (k + 1)^2) float64
+        For each order the covariance of c_{k-b,b} in the frame of the fit, in units of the radius;
+        no columns without error bars.
+    """
+
     turn: Any
     blur: Any
     covariance: Any
 
 
-def make_jets(size: int, orders: Any, columns: int, covariance: Any) -> Jets:
-    """Allocate results for `size` points, but for the covariances."""
-    return Jets(
-        np.full((size, 3, 3), np.nan),
-        np.zeros(size, np.int64),
-        np.zeros(size, np.int64),
-        np.full(size, np.nan),
-        np.full(size, np.nan),
-        np.full(size, np.nan),
-        np.zeros(size, np.int64),
-        np.full((size, columns), np.nan, np.complex128),
-        np.empty((size, 2)),
-        np.empty((size, len(orders))),
-        covariance,
-    )
-
-
-#: Columns of the rows of directions; what they hold is told by :class:`OrderDirections`.
+#: Columns of the rows of directions, which stand order by order and, in each, point by point; what
+#: they hold is told by :class:`OrderDirections`.
 ANGLE, VECTOR, EIGENVALUE, STRENGTH = 0, 1, 4, 5
 ANGLE_STD, EIGENVALUE_STD, KIND, COLUMNS = 6, 7, 8, 9
 
 
-class Directions(NamedTuple):
-    """Directions of Q points, J orders.
+class Columns(NamedTuple):
+    """The same directions of one order column by column, (M,) each but for ``vector``, (M, 3)."""
 
-    Attributes
-    ----------
-    counts : (J, Q) int64
-        Number of directions.
-    isotropic : (J, Q) bool
-        Where an order is constant.
-    rows : (M, COLUMNS) float64
-        The directions; those of order j of all points follow one another from row ``base[j]``.
-    """
-
-    counts: Any
-    isotropic: Any
-    rows: Any
+    angle: Any
+    vector: Any
+    eigenvalue: Any
+    strength: Any
+    angle_std: Any
+    eigenvalue_std: Any
+    kind: Any
 
 
-def make_directions(size: int, orders: Any) -> Directions:
-    """Allocate results for `size` points."""
-    return Directions(
-        np.zeros((len(orders), size), np.int64),
-        np.zeros((len(orders), size), np.bool_),
-        np.empty((size * int(2 * orders.sum()), COLUMNS)),
+def make_columns(size: int) -> Columns:
+    """Allocate the columns of `size` directions, with any contents."""
+    return Columns(
+        np.empty(size),
+        np.empty((size, 3)),
+        np.empty(size),
+        np.empty(size),
+        np.empty(size),
+        np.empty(size),
+        np.empty(size, np.int8),
     )
 
 
-class Output(NamedTuple):
-    """Results of one chunk."""
+@kernel
+def place(rows: Array, slots: IntArray, offsets: IntArray, out: Columns) -> None:
+    """Bring rows to the columns.
 
-    jets: Jets
-    directions: Directions
+    Parameters
+    ----------
+    rows : (>= sum of counts, COLUMNS) float64
+        Directions of one order at the points of a chunk.
+    slots : (C,) int64
+        These points.
+    offsets : (Q + 1,) int64
+        The directions of point q are the entries offsets[q]..offsets[q + 1] of the columns.
+    out : Columns
+        Receives them.
+    """
+    row = 0
+    for slot in slots:
+        for to in range(offsets[slot], offsets[slot + 1]):
+            out.angle[to] = rows[row, ANGLE]
+            for axis in range(3):
+                out.vector[to, axis] = rows[row, VECTOR + axis]
+            out.eigenvalue[to] = rows[row, EIGENVALUE]
+            out.strength[to] = rows[row, STRENGTH]
+            out.angle_std[to] = rows[row, ANGLE_STD]
+            out.eigenvalue_std[to] = rows[row, EIGENVALUE_STD]
+            out.kind[to] = np.int8(rows[row, KIND])
+            row += 1
