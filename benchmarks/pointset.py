@@ -77,18 +77,15 @@ def alternate(*actions) -> list[list[float]]:
     return [list(results) for results in zip(*rounds, strict=True)]
 
 
-def ours(points, normals, neighbours, degree, orders, queries=1000, **options):
-    """Return a function for seconds per point, end to end, in one thread.
-
-    The cost that does not grow with the queries is taken off.
-    """
+def ours(points, normals, neighbours, degree, orders, clock=time.process_time, **options):
+    """Return a function for seconds per point, everything included, in one thread by default."""
     radius = radius_for(neighbours, len(points))
     how = {"radius": radius, "degree": degree, "orders": orders, "normals": normals, "threads": 1}
 
-    def run(count):
-        estimate_directions(points, queries=np.arange(count), **(how | options))
+    def run():
+        estimate_directions(points, **(how | options))
 
-    return lambda: (once(lambda: run(queries)) - once(lambda: run(10))) / (queries - 10)
+    return lambda: once(run, clock) / len(points)
 
 
 def build_cgal(folder: Path) -> Path | None:
@@ -254,7 +251,7 @@ def stages() -> None:
 
     from pdtheory.pointset.kernels import cholesky, chunk, fit, grid, moments, regression, tilting
     from pdtheory.pointset.kernels.lanes import LANES
-    from pdtheory.pointset.kernels.tables import WORKSPACE, aligned, make_record, make_tables
+    from pdtheory.pointset.kernels.tables import WORKSPACE, make_cloud, make_record, make_tables
 
     @numba.njit(nogil=True, error_model="numpy", fastmath={"reassoc", "contract", "arcp", "nsz"})
     def stage(  # pragma: no cover
@@ -306,7 +303,7 @@ def stages() -> None:
         cells, _ = grid.build_grid(all_points, radius)
         points = len(cKDTree(all_points).query_ball_point(all_points[7], radius))
         n = -(-points // LANES) * LANES
-        cloud = aligned(moments.CLOUD_ROWS, 1024)
+        cloud = make_cloud(1024)
         settings = fit.Settings(degree, fit.FRAME_TANGENT, False, False, False, True)
         phi = np.empty((degree + 2) ** 2 // 4, np.complex128)
         fixed = (cells, all_points[7], normals[7], radius, settings, make_tables(), cloud)
@@ -366,23 +363,15 @@ def main() -> None:
     bars, bare, robust = alternate(
         ours(points, normals, 300, 10, ORDERS),
         ours(points, normals, 300, 10, ORDERS, **plain),
-        ours(points, normals, 300, 10, ORDERS, queries=200, norm="l1", **plain),
+        ours(points, normals, 300, 10, ORDERS, norm="l1", **plain),
     )
     row = {"us with": 1e6 * statistics.median(bars), "us without": 1e6 * statistics.median(bare)}
     show("error bars, K=10 N=300", row)
     row = {"us": 1e6 * statistics.median(robust)} | spread_of_ratio(robust, bare)
     show("l1 over l2, K=10 N=300", row, "<= 4", row["ratio"] <= 4)
-    how = {"radius": radius_for(300, len(points)), "degree": 10, "orders": ORDERS}
-
-    def clock(threads: int):
-        def run() -> None:
-            estimate_directions(
-                points, queries=np.arange(3000), normals=normals, threads=threads, **how
-            )
-
-        return lambda: once(run, time.perf_counter) / 3000
-
-    one, two = alternate(clock(1), clock(2))
+    one, two = alternate(
+        *(ours(points, normals, 300, 10, ORDERS, time.perf_counter, threads=n) for n in (1, 2))
+    )
     row = {"us one": 1e6 * statistics.median(one), "us two": 1e6 * statistics.median(two)}
     row |= spread_of_ratio(one, two)
     show("two threads against one, wall", row, ">= 1.9", row["ratio"] >= 1.9)

@@ -93,12 +93,14 @@ class Collector:
     def _directions(self, j: int) -> OrderDirections:
         """Return the directions of one order."""
         counts = self._found.counts
-        offsets = np.concatenate(([0], np.cumsum(counts[j])))
+        order = int(self._engine.orders[j])
+        offsets = np.concatenate(([0], np.cumsum(2 * counts[j])))
         columns = make_columns(int(offsets[-1]))
         for slots, rows in self._chunks:
-            place(rows[int(counts[:j, slots].sum()) :], slots, offsets, columns)
+            start = int(counts[:j, slots].sum())
+            place(rows[start:], order % 2 == 1, slots, offsets, columns)
         return OrderDirections(
-            order=int(self._engine.orders[j]),
+            order=order,
             offsets=offsets,
             isotropic=self._found.isotropic[j],
             **columns._asdict(),

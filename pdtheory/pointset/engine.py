@@ -17,10 +17,8 @@ from pdtheory.pointset.kernels.chunk import fit_chunk
 from pdtheory.pointset.kernels.directions import BENCH, find_directions
 from pdtheory.pointset.kernels.fit import Settings
 from pdtheory.pointset.kernels.grid import Grid, build_grid, cell_order
-from pdtheory.pointset.kernels.lanes import LANES
-from pdtheory.pointset.kernels.moments import CLOUD_ROWS
 from pdtheory.pointset.kernels.results import COLUMNS, Found, Traces, make_found
-from pdtheory.pointset.kernels.tables import WORKSPACE, aligned, make_record, make_tables
+from pdtheory.pointset.kernels.tables import WORKSPACE, make_cloud, make_record, make_tables
 from pdtheory.pointset.neighbourhoods import Choice, nearest, refuse_crowd
 from pdtheory.pointset.pool import Flag
 from pdtheory.pointset.trees import kd_tree
@@ -38,7 +36,7 @@ class _Memory(threading.local):
     def __init__(self) -> None:
         self.workspace = make_record(WORKSPACE)
         self.bench = make_record(BENCH)
-        self.cloud = aligned(CLOUD_ROWS, _CAPACITY)
+        self.cloud = make_cloud(_CAPACITY)
         self._arrays: dict[str, FloatArray] = {}
 
     def array(self, name: str, size: int, columns: int) -> FloatArray:
@@ -151,8 +149,8 @@ class Engine:
         Returns
         -------
         (M, COLUMNS) float64
-            The directions: order by order and, in each, query by query. The next call in this
-            thread writes over them.
+            The directions of the half circle: order by order and, in each, query by query. The
+            next call in this thread writes over them.
         """
         size = len(where)
         if self._tree is None:
@@ -195,8 +193,7 @@ class Engine:
             if done >= 0:
                 break
             begin = -1 - done
-            capacity = 2 * int(found.neighbours[slots[begin]]) // LANES * LANES
-            memory.cloud = aligned(CLOUD_ROWS, capacity)
-        rows = memory.array("rows", size * int(2 * self.orders.sum()), COLUMNS)
+            memory.cloud = make_cloud(2 * int(found.neighbours[slots[begin]]))
+        rows = memory.array("rows", size * int(self.orders.sum()), COLUMNS)
         count = find_directions(self.orders, tables, memory.bench, flag, traces, slots, found, rows)
         return rows[:count]

@@ -167,23 +167,19 @@ def _store(
     row: int,
     rows: Array,
 ) -> int:
-    """Write the directions of some points from `row` on; returns the first row behind them.
-
-    Those of the half circle come first at each point, then the opposite ones.
-    """
-    mirror = -1.0 if order % 2 else 1.0
+    """Write the directions of some points from `row` on; returns the first row behind them."""
     table = bench.table
     uncertain = traces.covariance.shape[1] > 0
     at = 0
     for q in range(start, end):
         count = int(bench.found[q - start])
         slot = slots[q]
-        out.counts[j, slot] = 2 * count
+        out.counts[j, slot] = count
         if count == 0:
             continue
         unit = factorial / bench.scale[q - start]
         largest = bench.largest[q - start]
-        for i in range(count):
+        for _ in range(count):
             c = table[COSINE, at]
             s = table[SINE, at]
             g = table[VALUE, at] * largest
@@ -202,21 +198,17 @@ def _store(
                 )
                 curvature = abs(table[CURVATURE, at]) * largest
                 angle_std = slope / curvature if curvature > 0.0 else np.inf
-            for half in range(2):
-                to = row + i + half * count
-                sign = mirror if half else 1.0
-                way = -1.0 if half else 1.0
-                rows[to, results.ANGLE] = table[ANGLE, at] + half * np.pi
-                for axis in range(3):
-                    along = c * out.frames[slot, 0, axis] + s * out.frames[slot, 1, axis]
-                    rows[to, results.VECTOR + axis] = way * along
-                rows[to, results.EIGENVALUE] = sign * g * unit
-                rows[to, results.STRENGTH] = abs(g)
-                rows[to, results.ANGLE_STD] = angle_std
-                rows[to, results.EIGENVALUE_STD] = g_std * unit
-                rows[to, results.KIND] = sign * bench.kind[at]
+            rows[row, results.ANGLE] = table[ANGLE, at]
+            for axis in range(3):
+                along = c * out.frames[slot, 0, axis] + s * out.frames[slot, 1, axis]
+                rows[row, results.VECTOR + axis] = along
+            rows[row, results.EIGENVALUE] = g * unit
+            rows[row, results.STRENGTH] = abs(g)
+            rows[row, results.ANGLE_STD] = angle_std
+            rows[row, results.EIGENVALUE_STD] = g_std * unit
+            rows[row, results.KIND] = bench.kind[at]
+            row += 1
             at += 1
-        row += 2 * count
     return row
 
 
@@ -243,13 +235,13 @@ def find_directions(
         Set to non-zero by another thread to end the work.
     traces, slots, out
         As `fit_chunk` leaves them; ``counts`` and ``isotropic`` are filled in.
-    rows : (>= 2 C sum of orders, COLUMNS) float64
-        Receives the directions, order by order and, in each, point by point.
+    rows : (>= C sum of orders, COLUMNS) float64
+        Receives the directions of the half circle, order by order and, in each, point by point.
 
     Returns
     -------
     int
-        Number of directions.
+        Number of rows.
     """
     entry = 0
     row = 0

@@ -26,7 +26,7 @@ class Found(NamedTuple):
     phi : (Q, M) complex128
         All Wavejets coefficients in these frames, in world units.
     counts : (J, Q) int64
-        Number of directions.
+        Number of directions on the half circle.
     isotropic : (J, Q) bool
         Where an order is constant.
     """
@@ -80,8 +80,8 @@ class Traces(NamedTuple):
     covariance: Any
 
 
-#: Columns of the rows of directions, which stand order by order and, in each, point by point; what
-#: they hold is told by :class:`OrderDirections`.
+#: Columns of the rows of directions, which stand order by order and, in each, point by point. Only
+#: those of the half circle have rows; what they hold is told by :class:`OrderDirections`.
 ANGLE, VECTOR, EIGENVALUE, STRENGTH = 0, 1, 4, 5
 ANGLE_STD, EIGENVALUE_STD, KIND, COLUMNS = 6, 7, 8, 9
 
@@ -112,13 +112,15 @@ def make_columns(size: int) -> Columns:
 
 
 @kernel
-def place(rows: Array, slots: IntArray, offsets: IntArray, out: Columns) -> None:
-    """Bring rows to the columns.
+def place(rows: Array, odd: bool, slots: IntArray, offsets: IntArray, out: Columns) -> None:
+    """Bring rows to the columns: at each point those of the half circle, then the opposite ones.
 
     Parameters
     ----------
     rows : (>= sum of counts, COLUMNS) float64
         Directions of one order at the points of a chunk.
+    odd : bool
+        Whether the order is odd, so that opposite directions have opposite eigenvalues.
     slots : (C,) int64
         These points.
     offsets : (Q + 1,) int64
@@ -126,15 +128,21 @@ def place(rows: Array, slots: IntArray, offsets: IntArray, out: Columns) -> None
     out : Columns
         Receives them.
     """
-    row = 0
+    first = 0
     for slot in slots:
-        for to in range(offsets[slot], offsets[slot + 1]):
-            out.angle[to] = rows[row, ANGLE]
-            for axis in range(3):
-                out.vector[to, axis] = rows[row, VECTOR + axis]
-            out.eigenvalue[to] = rows[row, EIGENVALUE]
-            out.strength[to] = rows[row, STRENGTH]
-            out.angle_std[to] = rows[row, ANGLE_STD]
-            out.eigenvalue_std[to] = rows[row, EIGENVALUE_STD]
-            out.kind[to] = np.int8(rows[row, KIND])
-            row += 1
+        count = (offsets[slot + 1] - offsets[slot]) // 2
+        for half in range(2):
+            way = -1.0 if half else 1.0
+            sign = way if odd else 1.0
+            to = offsets[slot] + half * count
+            for row in range(first, first + count):
+                out.angle[to] = rows[row, ANGLE] + half * np.pi
+                for axis in range(3):
+                    out.vector[to, axis] = way * rows[row, VECTOR + axis]
+                out.eigenvalue[to] = sign * rows[row, EIGENVALUE]
+                out.strength[to] = rows[row, STRENGTH]
+                out.angle_std[to] = rows[row, ANGLE_STD]
+                out.eigenvalue_std[to] = rows[row, EIGENVALUE_STD]
+                out.kind[to] = np.int8(sign * rows[row, KIND])
+                to += 1
+        first += count

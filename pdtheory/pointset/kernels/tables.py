@@ -13,7 +13,7 @@ from pdtheory.conventions import frequencies
 from pdtheory.pointset.kernels.cholesky import WIDEST, padded_columns, padded_rows
 from pdtheory.pointset.kernels.jit import Array
 from pdtheory.pointset.kernels.lanes import LANES
-from pdtheory.pointset.kernels.moments import BLOCK, WIDE, cube_rows
+from pdtheory.pointset.kernels.moments import BLOCK, CLOUD_ROWS, WIDE, cube_rows
 
 #: Sample intervals of the angles on the half circle.
 SAMPLES = 64
@@ -30,6 +30,9 @@ MAX_DEGREE = 14
 _COUNT = (MAX_DEGREE + 1) * (MAX_DEGREE + 2) // 2
 _ROWS, _COLUMNS = padded_rows(_COUNT) + 2, padded_columns(_COUNT)
 _LINE = 64  # bytes of a cache line, where vectors begin best
+#: Cache lines by which each row of a cloud is set off against the one before: with a power of two
+#: between them all rows would want the same places of the cache.
+_STAGGER = 5
 _INTEGERS = ("intervals", "runs", "cells")  # the arrays of integers among those of numbers
 
 
@@ -51,6 +54,13 @@ def aligned(*shape: int) -> Array:
     memory = np.zeros(size + _LINE // 8)
     start = -(memory.ctypes.data // 8) % (_LINE // 8)
     return memory[start : start + size].reshape(shape)
+
+
+def make_cloud(capacity: int) -> Array:
+    """Allocate the rows of a cloud of so many points."""
+    lines = -(-capacity * 8 // _LINE)
+    lines += (_STAGGER - lines) % 64
+    return aligned(CLOUD_ROWS, lines * _LINE // 8)
 
 
 def make_record(layout: np.dtype[Any]) -> Any:
