@@ -53,17 +53,16 @@ class Field:
     def __init__(self, constants: Iterable[Any], variables: str = "x,y") -> None:
         listed = [*dict.fromkeys([sp.Integer(1), *constants])]
         self._in_field = _membership(listed)
-        atoms = self._atoms(listed, into_quotients=True)
+        parts, atoms = self._parts(listed, into_quotients=True)
         numbers = [a for a in atoms if not a.is_Symbol]
         self.divides = len(numbers) <= 1 and all(
             not a.free_symbols and a.is_algebraic is False for a in numbers
         )
         if not self.divides:
-            atoms = self._atoms(listed, into_quotients=False)
+            parts, atoms = self._parts(listed, into_quotients=False)
         self.numbers = [a for a in atoms if not a.is_Symbol]
         self._names = {a: a if a.is_Symbol else sp.Dummy() for a in atoms}
         self._meaning = {name: a for a, name in self._names.items()}
-        parts = [*self._algebraic_parts(listed, into_quotients=self.divides), sp.Integer(1)]
         ground, elements = in_number_field(parts)
         symbols = [*self._names.values()]
         if self.divides:
@@ -137,42 +136,27 @@ class Field:
             result.append(BinaryForm(coefficients))
         return result
 
-    def _atoms(self, constants: Iterable[Any], *, into_quotients: bool) -> list[Any]:
-        """Return what the constants are made of besides algebraic numbers, + * and powers."""
-        found: dict[Any, None] = {}
+    def _parts(
+        self, constants: Iterable[Any], *, into_quotients: bool
+    ) -> tuple[list[Any], list[Any]]:
+        """Return the algebraic numbers in sums, products and powers, and what else is in them."""
+        algebraic: dict[Any, None] = {}
+        others: dict[Any, None] = {}
 
         def walk(node: Any) -> None:
             if self._in_field(node):
-                return
-            whole = node.is_Pow and node.exp.is_Integer and (into_quotients or node.exp > 0)
-            if node.is_Add or node.is_Mul:
-                for part in node.args:
-                    walk(part)
-            elif whole:
-                walk(node.base)
-            else:
-                found[node] = None
-
-        for constant in constants:
-            walk(constant)
-        return [*found]
-
-    def _algebraic_parts(self, constants: Iterable[Any], *, into_quotients: bool) -> list[Any]:
-        """Return the algebraic numbers in sums, products and powers."""
-        found: dict[Any, None] = {}
-
-        def walk(node: Any) -> None:
-            if self._in_field(node):
-                found[node] = None
+                algebraic[node] = None
             elif node.is_Add or node.is_Mul:
                 for part in node.args:
                     walk(part)
             elif node.is_Pow and node.exp.is_Integer and (into_quotients or node.exp > 0):
                 walk(node.base)
+            else:
+                others[node] = None
 
         for constant in constants:
             walk(constant)
-        return [*found]
+        return [*algebraic], [*others]
 
 
 def _membership(constants: Sequence[Any]) -> Callable[[Any], bool]:

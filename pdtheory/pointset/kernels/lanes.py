@@ -34,17 +34,28 @@ _FLAGS = ("contract",)
 class Rows:
     """A C-contiguous array of doubles or 64-bit integers with one or two axes."""
 
-    def __init__(self, lanes: Lanes, kind: Any, value: Any) -> None:
-        array = lanes.context.make_array(kind)(lanes.context, lanes.builder, value)
+    def __init__(self, lanes: Lanes, data: Any, stride: Any) -> None:
         self._lanes = lanes
-        self._data = array.data
-        self.stride = cgutils.unpack_tuple(lanes.builder, array.shape)[-1]
+        self._data = data
+        self._stride = stride
+
+    @classmethod
+    def of(cls, lanes: Lanes, kind: Any, value: Any) -> Rows:
+        """Return the rows of an array of Numba."""
+        array = lanes.context.make_array(kind)(lanes.context, lanes.builder, value)
+        return cls(lanes, array.data, cgutils.unpack_tuple(lanes.builder, array.shape)[-1])
+
+    def unless(self, condition: Any, other: Rows) -> Rows:
+        """Return these, or the others if a condition holds."""
+        build = self._lanes.builder
+        data = build.select(condition, other._data, self._data)
+        return Rows(self._lanes, data, build.select(condition, other._stride, self._stride))
 
     def at(self, row: Any, column: Any = None) -> Any:
         """Address of an entry."""
         lanes = self._lanes
         if column is not None:
-            row = lanes.plus(lanes.builder.mul(lanes.integer(row), self.stride), column)
+            row = lanes.plus(lanes.builder.mul(lanes.integer(row), self._stride), column)
         return lanes.builder.gep(self._data, [lanes.integer(row)])
 
 
@@ -223,7 +234,7 @@ def emit(write: Callable[..., Any]) -> Any:
         def generate(context: Any, builder: Any, signature: Any, values: Any) -> Any:
             lanes = Lanes(context, builder)
             arguments = [
-                Rows(lanes, kind, value) if isinstance(kind, types.Array) else value
+                Rows.of(lanes, kind, value) if isinstance(kind, types.Array) else value
                 for kind, value in zip(signature.args, values, strict=True)
             ]
             returned = write(lanes, *arguments)

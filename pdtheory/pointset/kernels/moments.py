@@ -15,7 +15,7 @@ CLOUD_ROWS = 12
 BLOCK = 128
 #: Powers of x in a tile, and widths of tiles in powers of y, as large as the registers allow.
 TALL = 3
-WIDTHS = (9, 6, 3) if LANES == 8 else (4, 2)
+WIDTHS = (9, 7, 6, 4, 3, 1) if LANES == 8 else (4, 2)
 #: Powers of y that are kept at a time.
 WIDE = WIDTHS[0]
 
@@ -93,7 +93,13 @@ def _sum(
         stop = to.least(length, to.minus(n, start))
         _fill_powers(to, cloud, weights, start, stop, top, degree, cubes, columns)
         with to.count(0, to.plus(top, 1), WIDE) as b:
-            for last, out, cube in targets:
+            with to.count(0, len(targets)) as number:
+                last, out, cube = targets[0]
+                if degree is not None:
+                    second = to.builder.icmp_signed("!=", number, to.integer(0))
+                    last = to.builder.select(second, degree, last)
+                    out = sums.unless(second, heights)
+                    cube = to.builder.select(second, targets[1][2], cube)
                 left = to.minus(last, b)
                 first = cube
                 for width, narrower in zip(WIDTHS, (*WIDTHS[1:], 0), strict=True):
