@@ -11,9 +11,8 @@ relations between the numbers are. What vanishes is decided afterwards (`zeros`)
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from functools import cached_property, reduce
+from functools import cached_property
 from math import factorial
-from operator import mul
 from typing import Any
 
 import sympy as sp
@@ -21,7 +20,7 @@ from sympy.polys.rings import ring
 
 from pdtheory.exact.coefficients import tidy
 from pdtheory.exact.faces import BinaryForm
-from pdtheory.exact.numberfield import in_number_field
+from pdtheory.exact.numberfield import composed, in_number_field, is_composed
 from pdtheory.exact.powerseries import Series
 from pdtheory.exact.separation import (
     MOST_SQUARE_ROOTS,
@@ -94,17 +93,8 @@ class Field:
         """Return a constant as a coefficient."""
         constant = sp.sympify(constant, strict=True)
         if constant not in self._known:
-            self._known[constant] = self._composed(constant)
+            self._known[constant] = composed(constant, self.domain, self.element)
         return self._known[constant]
-
-    def _composed(self, constant: Any) -> Any:
-        if constant.is_Rational:
-            return self.domain.convert(sp.QQ(int(constant.p), int(constant.q)), sp.QQ)
-        if constant.is_Pow:
-            power, whole = self.element(constant.base), int(constant.exp)
-            return power**whole if whole >= 0 else (self.domain.one / power) ** -whole
-        parts = [self.element(a) for a in constant.args]
-        return sum(parts, self.domain.zero) if constant.is_Add else reduce(mul, parts)
 
     def expression(self, element: Any) -> Any:
         """Return a coefficient as a SymPy expression; 0 if it vanishes."""
@@ -176,7 +166,4 @@ def _membership(constants: Sequence[Any]) -> Callable[[Any], bool]:
 def _is_of_square_roots(node: Any) -> bool:
     if node.is_Rational or is_square_root(node):
         return True
-    whole = node.is_Pow and node.exp.is_Integer
-    return bool(node.is_Add or node.is_Mul or whole) and all(
-        _is_of_square_roots(a) for a in node.args
-    )
+    return is_composed(node) and all(_is_of_square_roots(a) for a in node.args)

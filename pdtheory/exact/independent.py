@@ -12,12 +12,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 from functools import reduce
 from math import lcm
-from operator import mul
 from typing import Any, Final
 
 import sympy as sp
 
-from pdtheory.exact.numberfield import in_number_field
+from pdtheory.exact.numberfield import composed, in_number_field, is_composed, power
 from pdtheory.exact.separation import extent, is_known_algebraic
 from pdtheory.exact.zeros import is_zero
 
@@ -151,7 +150,7 @@ class Independent:
                 key = circular, basic
                 self._shares[key] = lcm(self._shares.get(key, 1), int(multiple.q))
                 self._largest[key] = max(self._largest.get(key, 0), abs(multiple))
-        elif _is_plain(node):
+        elif is_composed(node):
             for part in node.args:
                 self._collect(part)
         else:
@@ -180,26 +179,19 @@ class Independent:
         return self._known[node]
 
     def _new(self, node: Any) -> Any:
-        if node.is_Rational:
-            return self.field.convert_from(sp.QQ(int(node.p), int(node.q)), sp.QQ)
         if self._is_rewritten(node):
             if isinstance(node, _CIRCULAR):
                 return self._circular(node)
             return self._exponential(node)
-        if not _is_plain(node):
-            return self.field(self._symbols[node])
-        if node.is_Pow:
-            base, power = self._of(node.base), int(node.exp)
-            return base**power if power >= 0 else (self.field.one / base) ** -power
-        parts = [self._of(part) for part in node.args]
-        return sum(parts, self.field.zero) if node.is_Add else reduce(mul, parts)
+        if node.is_Rational or is_composed(node):
+            return composed(node, self.field, self._of)
+        return self.field(self._symbols[node])
 
     def _exponential(self, node: Any) -> Any:
         value = self.field.one
         for multiple, basic in _terms(_argument(node)):
-            power = int(multiple * self._shares[False, basic])
             factor = self.field(self._symbols[self._basic(False, basic)])
-            value *= factor**power if power > 0 else (self.field.one / factor) ** -power
+            value *= power(factor, int(multiple * self._shares[False, basic]), self.field)
         if isinstance(node, sp.exp) or node is sp.E:
             return value
         plus, minus = value + 1 / value, value - 1 / value
@@ -211,9 +203,9 @@ class Independent:
         for multiple, basic in _terms(_argument(node)):
             t = self.field(self._symbols[self._basic(True, basic)])
             c, s = (1 - t**2) / (1 + t**2), 2 * t / (1 + t**2)
-            power = int(multiple * self._shares[True, basic])
-            for _ in range(abs(power)):
-                turned = s if power > 0 else -s
+            turns = int(multiple * self._shares[True, basic])
+            for _ in range(abs(turns)):
+                turned = s if turns > 0 else -s
                 cosine, sine = cosine * c - sine * turned, cosine * turned + sine * c
         if node.func in (sp.cos, sp.sin):
             return cosine if node.func is sp.cos else sine
@@ -226,7 +218,7 @@ def _algebraic_parts(node: Any) -> list[Any]:
         return []
     if is_known_algebraic(node):
         return [node]
-    return [a for part in node.args for a in _algebraic_parts(part)] if _is_plain(node) else []
+    return [a for part in node.args for a in _algebraic_parts(part)] if is_composed(node) else []
 
 
 def _is_elementary(node: Any) -> bool:
@@ -245,7 +237,3 @@ def _argument(node: Any) -> Any:
 def _terms(argument: Any) -> list[tuple[Any, Any]]:
     """Write a number as a sum of rational multiples of basic numbers."""
     return [term.as_coeff_Mul() for term in sp.Add.make_args(argument)]
-
-
-def _is_plain(node: Any) -> bool:
-    return bool(node.is_Add or node.is_Mul or (node.is_Pow and node.exp.is_Integer))

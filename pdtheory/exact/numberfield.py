@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from functools import lru_cache, reduce
 from operator import mul
 from typing import Any
@@ -30,7 +30,45 @@ def in_number_field(numbers: Iterable[Any]) -> tuple[Any, list[Any]]:
     for number in listed:
         _collect(number, roots)
     field, known = _generated(tuple(sorted(roots, key=sp.default_sort_key)))
-    return field, [_composed(number, field, known) for number in listed]
+
+    def element(node: Any) -> Any:
+        if node in known:
+            return known[node]
+        if node.is_Pow and not node.exp.is_Integer:
+            return power(known[_root(node)], int(node.exp.p), field)
+        return composed(node, field, element)
+
+    return field, [element(number) for number in listed]
+
+
+def is_composed(node: Any) -> bool:
+    """Return whether an expression is a sum, a product or a whole power."""
+    return bool(node.is_Add or node.is_Mul or (node.is_Pow and node.exp.is_Integer))
+
+
+def composed(node: Any, domain: Any, element: Callable[[Any], Any]) -> Any:
+    """Return a rational number, a sum, a product or a whole power as an element of a domain.
+
+    Parameters
+    ----------
+    node
+        A SymPy expression.
+    domain
+        A SymPy domain that contains the rational numbers.
+    element
+        Returns the terms, the factors or the base as elements.
+    """
+    if node.is_Rational:
+        return domain.convert(sp.QQ(int(node.p), int(node.q)), sp.QQ)
+    if node.is_Pow:
+        return power(element(node.base), int(node.exp), domain)
+    parts = [element(part) for part in node.args]
+    return sum(parts, domain.zero) if node.is_Add else reduce(mul, parts)
+
+
+def power(base: Any, exponent: int, domain: Any) -> Any:
+    """Return a whole power of an element of a domain."""
+    return base**exponent if exponent >= 0 else (domain.one / base) ** -exponent
 
 
 @lru_cache(maxsize=64)
@@ -47,22 +85,8 @@ def _root(power: Any) -> Any:
 def _collect(node: Any, roots: dict[Any, None]) -> None:
     if node.is_Rational:
         return
-    if node.is_Add or node.is_Mul or (node.is_Pow and node.exp.is_Integer):
+    if is_composed(node):
         for part in node.args:
             _collect(part, roots)
     else:
         roots[_root(node) if node.is_Pow and node.exp.is_Rational else node] = None
-
-
-def _composed(node: Any, field: Any, known: dict[Any, Any]) -> Any:
-    if node in known:
-        return known[node]
-    if node.is_Rational:
-        return field.convert(sp.QQ(int(node.p), int(node.q)), sp.QQ)
-    if node.is_Pow and node.exp.is_Rational:
-        whole = node.exp.is_Integer
-        base = _composed(node.base, field, known) if whole else known[_root(node)]
-        power = int(node.exp.p)
-        return base**power if power >= 0 else (field.one / base) ** -power
-    parts = [_composed(part, field, known) for part in node.args]
-    return sum(parts, field.zero) if node.is_Add else reduce(mul, parts)
