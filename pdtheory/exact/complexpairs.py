@@ -128,8 +128,9 @@ def complex_eigenpairs(face: Face) -> ComplexEigenPairs:
         return ComplexEigenPairs(form.order, "isotropic", (), 0)
     # F = (x^2 + y^2)^m times a form without isotropic zeros, and likewise f up to its mean.
     isotropic = (form.order - form.row.support[-1]) // 2
-    if Coefficients(derivative.coefficients).in_field:
-        zeros, vertical = _algebraic_zeros(derivative)
+    critical = Coefficients(derivative.coefficients)
+    if critical.in_field:
+        zeros, vertical = _algebraic_zeros(critical)
     else:
         zeros, vertical = _constant_zeros(_without_isotropic(derivative, isotropic))
     if numbers.in_field:
@@ -153,9 +154,9 @@ def complex_eigenpairs(face: Face) -> ComplexEigenPairs:
     return ComplexEigenPairs(form.order, "ok", tuple(classes), isotropic)
 
 
-def _algebraic_zeros(derivative: BinaryForm) -> tuple[list[_Zero], int]:
+def _algebraic_zeros(critical: Coefficients) -> tuple[list[_Zero], int]:
     """Return the zeros of F(1, tau) other than +-i, and the multiplicity of the vertical vector."""
-    degree, found = candidates(derivative.coefficients)
+    vertical, found = candidates(critical)
     zeros = [
         zero
         for factor, part, multiplicity in found
@@ -167,7 +168,7 @@ def _algebraic_zeros(derivative: BinaryForm) -> tuple[list[_Zero], int]:
         )
         if is_root(part, factor, zero.place)
     ]
-    return zeros, derivative.order - degree
+    return zeros, vertical
 
 
 def _constant_zeros(derivative: BinaryForm) -> tuple[list[_Zero], int]:

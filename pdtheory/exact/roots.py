@@ -51,8 +51,9 @@ def form_roots(coefficients: Sequence[Any], least_multiplicity: int = 1) -> list
     ComputationError
         If a number that decides on multiplicities may or may not be zero (`zeros.is_zero`).
     """
-    if Coefficients(tuple(coefficients)).in_field:
-        at_infinity, roots = _algebraic_roots(coefficients, least_multiplicity)
+    numbers = Coefficients(tuple(coefficients))
+    if numbers.in_field:
+        at_infinity, roots = _algebraic_roots(numbers, least_multiplicity)
     else:
         at_infinity, roots = _constant_roots(coefficients, least_multiplicity)
     ascending = [Root(*pair) for pair in _ascending(roots)]
@@ -62,9 +63,9 @@ def form_roots(coefficients: Sequence[Any], least_multiplicity: int = 1) -> list
 
 
 def _algebraic_roots(
-    coefficients: Sequence[Any], least_multiplicity: int
+    numbers: Coefficients, least_multiplicity: int
 ) -> tuple[int, list[tuple[RealNumber, int]]]:
-    degree, found = candidates(coefficients)
+    at_infinity, found = candidates(numbers)
     roots: list[tuple[RealNumber, int]] = [
         (root, multiplicity)
         for factor, part, multiplicity in found
@@ -72,7 +73,7 @@ def _algebraic_roots(
         for root in (RealAlgebraic(factor, i) for i in range(len(real_roots(factor, FIRST_BITS))))
         if is_root(part, factor, partial(_real_place, root))
     ]
-    return len(coefficients) - 1 - degree, roots
+    return at_infinity, roots
 
 
 def _constant_roots(
@@ -103,34 +104,34 @@ def without_outer_zeros(coefficients: Sequence[Any]) -> tuple[int, Sequence[Any]
     return first, coefficients[first : len(coefficients) - after], after
 
 
-def candidates(coefficients: Sequence[Any]) -> tuple[int, list[tuple[Integers, Any, int]]]:
+def candidates(numbers: Coefficients) -> tuple[int, list[tuple[Integers, Any, int]]]:
     """Return irreducible polynomials over Q that together have all zeros t of a form f(1, t).
 
     Parameters
     ----------
-    coefficients
-        Those of the form as SymPy expressions, not all zero.
+    numbers
+        The coefficients of the form, not all zero, in a field.
 
     Returns
     -------
-    degree : int
-        The degree of f(1, t).
+    at_infinity : int
+        The multiplicity of the zero at infinity; 0 if there is none.
     candidates : list of (polynomial, part, multiplicity)
         The zeros of f(1, t) of this multiplicity are those of the squarefree part, a SymPy
         polynomial over the field of the coefficients; each is a root of one of the irreducible
         polynomials. For rational coefficients the part is None and all roots are zeros.
     """
-    numbers = Coefficients(tuple(coefficients))
+    count = len(numbers.expressions)
     if numbers.rationals is not None:
         polynomial = primitive(numbers.rationals)
         factors = engine().factor(polynomial)
-        return len(polynomial) - 1, [(p, None, multiplicity) for p, multiplicity in factors]
+        return count - len(polynomial), [(p, None, multiplicity) for p, multiplicity in factors]
     poly = numbers.polynomial
     found = []
     for part, multiplicity in poly.sqf_list()[1]:
         norm = part if poly.domain.is_QQ else part.norm()
         found += [(p, part, multiplicity) for p, _ in engine().factor(primitive(_fractions(norm)))]
-    return int(poly.degree()), found
+    return count - 1 - int(poly.degree()), found
 
 
 def _fractions(poly: Any) -> list[Fraction]:
