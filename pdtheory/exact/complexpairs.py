@@ -23,8 +23,8 @@ from pdtheory.exact.engines import Integers
 from pdtheory.exact.faces import BinaryForm, Face
 from pdtheory.exact.intervals import Rectangle
 from pdtheory.exact.realcoefficients import Coefficients
-from pdtheory.exact.realnumber import FIRST_BITS, precisions
-from pdtheory.exact.roots import candidates, is_root, without_outer_zeros
+from pdtheory.exact.realnumber import FIRST_BITS
+from pdtheory.exact.roots import candidates, found_among, is_root, without_outer_zeros
 from pdtheory.exact.squarefree import squarefree_parts
 from pdtheory.exact.wavejets import WavejetsRow
 from pdtheory.exact.zeros import is_zero
@@ -203,9 +203,5 @@ def _common_zeros(
     if not doubtful:
         return [False] * len(zeros)
     found, _ = _constant_zeros(_without_isotropic(form, isotropic))
-    multiple = [z for z in found if z.multiplicity > 1]
-    for bits in precisions():
-        near = [[d for d in doubtful if d.place(bits).overlaps(m.place(bits))] for m in multiple]
-        if all(len(matches) == 1 for matches in near):
-            return [any(z is matches[0] for matches in near) for z in zeros]
-    raise AssertionError("unreachable")
+    common = found_among(doubtful, [z for z in found if z.multiplicity > 1], _Zero.place)
+    return [any(z is c for c in common) for z in zeros]

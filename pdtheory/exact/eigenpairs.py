@@ -18,7 +18,7 @@ from pdtheory.exact.eigenpair import EigenPair
 from pdtheory.exact.faces import BinaryForm, Face
 from pdtheory.exact.realcoefficients import Coefficients
 from pdtheory.exact.realnumber import FIRST_BITS, RealNumber, precisions
-from pdtheory.exact.roots import form_roots
+from pdtheory.exact.roots import form_roots, found_among
 from pdtheory.exact.zeros import is_zero
 
 Outcome = Literal["ok", "isotropic", "vanishing"]
@@ -173,15 +173,7 @@ def _common_zeros(
     multiple = [
         r.value for r in form_roots(form.coefficients, least_multiplicity=2) if r.value is not None
     ]
-    for bits in precisions():
-        near = [
-            [t for t in doubtful if t.at_precision(bits).overlaps(zero.at_precision(bits))]
-            for zero in multiple
-        ]
-        # A multiple zero of f is one of the zeros of F: the only one that is near enough at last.
-        if all(len(found) == 1 for found in near):
-            return vertical | {found[0] for found in near}
-    raise AssertionError("unreachable")
+    return vertical.union(found_among(doubtful, multiple, lambda t, bits: t.at_precision(bits)))
 
 
 def _excludes_zero(numbers: Coefficients, tangent: RealNumber, bits: int) -> bool:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 from functools import partial
 from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import sympy as sp
 
@@ -21,6 +21,7 @@ from pdtheory.exact.squarefree import squarefree_parts
 from pdtheory.exact.zeros import is_zero
 
 _T = sp.Symbol("t")
+_Number = TypeVar("_Number")
 
 
 class Root(NamedTuple):
@@ -169,6 +170,28 @@ def is_root(part: Any, candidate: Integers, place: Callable[[int], Rectangle]) -
             ]
         if any(away):
             return not away[0]
+    raise AssertionError("unreachable")
+
+
+def found_among(
+    numbers: Sequence[_Number], zeros: Sequence[_Number], place: Callable[[_Number, int], Any]
+) -> list[_Number]:
+    """Return for each zero which one of some different numbers it is.
+
+    Parameters
+    ----------
+    numbers
+        The numbers, among them all of the zeros.
+    zeros
+        The zeros.
+    place
+        Returns an enclosure of a number or a zero at a working precision in bits.
+    """
+    for bits in precisions():
+        near = [[n for n in numbers if place(n, bits).overlaps(place(z, bits))] for z in zeros]
+        # A zero is one of the numbers: the only one that is near enough at last.
+        if all(len(found) == 1 for found in near):
+            return [found[0] for found in near]
     raise AssertionError("unreachable")
 
 
