@@ -130,9 +130,9 @@ class ComplexEigenPair:
     def _cosine(self, bits: int) -> Any:
         square = self._square(bits)
         if not self._turned:
-            return 1 / engine().sqrt(square)
+            return 1 / square.sqrt()
         unit = engine().complex_interval(Rectangle(_ZERO, _ONE))
-        return 1 / (unit * engine().sqrt(-square))
+        return 1 / (unit * (-square).sqrt())
 
     def _vector(self, bits: int) -> tuple[Rectangle, Rectangle]:
         if self.polynomial is None:

@@ -233,7 +233,7 @@ def _value(
             square = 1 + t * t
             value = horner(coefficients, t) / square ** (order // 2)
             if order % 2:
-                value = value / engine().sqrt(square)
+                value = value / square.sqrt()
         if with_factor and numbers.factor != 1:
             value = value * numbers.factor_interval(bits)
         return engine().enclosure(value)

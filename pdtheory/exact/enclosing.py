@@ -74,7 +74,7 @@ def enclose(expression: Any, bits: int) -> Rectangle | None:
         ball = _Arb(bits).ball(expression)
         if ball is None or not ball.is_finite():
             return None
-        return Rectangle(here.enclosure(ball.real), here.enclosure(ball.imag))
+        return here.rectangle(ball)
 
 
 def enclose_real(expression: Any, bits: int) -> Enclosure:

@@ -41,7 +41,7 @@ class Engine:
         with self.precision(bits):
             roots = [r for r, _ in self.library.fmpz_poly(list(polynomial)).complex_roots()]
             upper = [r for r in roots if not r.imag.is_zero() and r.imag > 0]
-            return sorted(Rectangle(self.enclosure(r.real), self.enclosure(r.imag)) for r in upper)
+            return sorted(self.rectangle(r) for r in upper)
 
     def precision(self, bits: int) -> AbstractContextManager[Any]:
         """Return a context in which intervals carry this many bits."""
@@ -66,10 +66,6 @@ class Engine:
     def rectangle(self, interval: Any) -> Rectangle:
         """Return a rectangle with rational corners around a complex ball."""
         return Rectangle(self.enclosure(interval.real), self.enclosure(interval.imag))
-
-    def sqrt(self, interval: Any) -> Any:
-        """Return the principal square root; a complex number must lie off the negative axis."""
-        return interval.sqrt()
 
     def atan_degrees(self, interval: Any) -> Any:
         """Return the arc tangent in degrees."""
