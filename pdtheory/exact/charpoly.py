@@ -10,6 +10,7 @@ import sympy as sp
 from sympy.polys.matrices import DomainMatrix
 
 from pdtheory.exact.algebraic import primitive
+from pdtheory.exact.coefficients import as_fraction
 from pdtheory.exact.engines import Integers
 
 
@@ -54,7 +55,7 @@ def cosine_squared_polynomial(tangent: Integers) -> Integers:
 
 def _charpoly(matrix: DomainMatrix) -> Integers:
     descending = matrix.charpoly()
-    return primitive([Fraction(int(c.numerator), int(c.denominator)) for c in descending[::-1]])
+    return primitive([as_fraction(c) for c in descending[::-1]])
 
 
 def _dense(rows: list[list[Any]]) -> DomainMatrix:

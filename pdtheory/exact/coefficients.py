@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from fractions import Fraction
 from typing import Any, Final
 
 import numpy as np
@@ -80,6 +81,11 @@ def _float_ratio(value: Any) -> tuple[int, int]:
     sign, mantissa, exponent, _ = value._mpf_
     mantissa = -int(mantissa) if sign else int(mantissa)
     return (mantissa << exponent, 1) if exponent >= 0 else (mantissa, 1 << -exponent)
+
+
+def as_fraction(rational: Any) -> Fraction:
+    """Return a rational number of SymPy, of its domain QQ or of FLINT as a fraction."""
+    return Fraction(int(rational.numerator), int(rational.denominator))
 
 
 def tidy(value: Any) -> Any:

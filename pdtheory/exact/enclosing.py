@@ -16,6 +16,7 @@ import sympy as sp
 
 from pdtheory.errors import ComputationError
 from pdtheory.exact.balls import engine, real_roots
+from pdtheory.exact.coefficients import as_fraction
 from pdtheory.exact.intervals import Enclosure, Rectangle
 from pdtheory.exact.realnumber import bits_for, precisions
 
@@ -86,7 +87,7 @@ def enclose_real(expression: Any, bits: int) -> Enclosure:
         If none is found.
     """
     if expression.is_Rational:
-        value = Fraction(int(expression.p), int(expression.q))
+        value = as_fraction(expression)
         return Enclosure(value, value)
     found = enclose(expression, bits)
     if found is None:

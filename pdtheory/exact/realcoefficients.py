@@ -6,7 +6,7 @@ coefficients (cos(1), or a tower of roots) are constants that can be enclosed to
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -17,6 +17,7 @@ import sympy as sp
 from pdtheory.errors import InputError
 from pdtheory.exact.algebraic import RealAlgebraic, primitive
 from pdtheory.exact.balls import engine, horner
+from pdtheory.exact.coefficients import as_fraction
 from pdtheory.exact.enclosing import enclose_real, real_balls
 from pdtheory.exact.independent import Independent
 from pdtheory.exact.intervals import Enclosure
@@ -98,7 +99,7 @@ class Coefficients:
     def rationals(self) -> list[Fraction] | None:
         """The numbers over the factor as fractions if all are rational, else None."""
         if self.in_field and all(e.is_Rational for e in self.algebraic):
-            return [Fraction(int(e.p), int(e.q)) for e in self.algebraic]
+            return [as_fraction(e) for e in self.algebraic]
         return None
 
     @cached_property
@@ -119,7 +120,7 @@ class Coefficients:
         field, _ = self.field_elements
         if field.is_QQ:
             return RealAlgebraic.rational(0)
-        minimal = primitive([Fraction(int(c.p), int(c.q)) for c in _rationals(field.mod.to_list())])
+        minimal = primitive([as_fraction(c) for c in field.mod.to_list()[::-1]])
         expression = field.ext.as_expr()
         return RealAlgebraic.select(minimal, lambda bits: enclose_real(expression, bits))
 
@@ -135,11 +136,8 @@ class Coefficients:
             return [[r] for r in self.rationals]
         field, elements = self.field_elements
         if field.is_QQ:
-            return [[Fraction(int(e.numerator), int(e.denominator))] for e in elements]
-        return [
-            [Fraction(int(c.p), int(c.q)) for c in _rationals(e.to_list())] or [Fraction(0)]
-            for e in elements
-        ]
+            return [[as_fraction(e)] for e in elements]
+        return [[as_fraction(c) for c in e.to_list()[::-1]] or [Fraction(0)] for e in elements]
 
     def intervals(self, bits: int) -> list[Any]:
         """Return interval numbers for the coefficients over the factor (inside `precision`)."""
@@ -159,7 +157,3 @@ class Coefficients:
             return [number(Enclosure(r, r)) for r in self.rationals]
         a = number(self.generator.at_precision(bits))
         return [horner([number(Enclosure(c, c)) for c in p], a) for p in self.in_generator]
-
-
-def _rationals(leading_first: Sequence[Any]) -> list[Any]:
-    return [sp.Rational(int(c.numerator), int(c.denominator)) for c in leading_first][::-1]

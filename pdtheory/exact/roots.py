@@ -12,6 +12,7 @@ import sympy as sp
 
 from pdtheory.exact.algebraic import RealAlgebraic, primitive
 from pdtheory.exact.balls import engine, horner, real_roots
+from pdtheory.exact.coefficients import as_fraction
 from pdtheory.exact.constantroots import RealRoot
 from pdtheory.exact.engines import Integers
 from pdtheory.exact.intervals import Enclosure, Rectangle
@@ -131,12 +132,9 @@ def candidates(numbers: Coefficients) -> tuple[int, list[tuple[Integers, Any, in
     found = []
     for part, multiplicity in poly.sqf_list()[1]:
         norm = part if poly.domain.is_QQ else part.norm()
-        found += [(p, part, multiplicity) for p, _ in engine().factor(primitive(_fractions(norm)))]
+        over_q = primitive([as_fraction(c) for c in norm.all_coeffs()[::-1]])
+        found += [(p, part, multiplicity) for p, _ in engine().factor(over_q)]
     return count - 1 - int(poly.degree()), found
-
-
-def _fractions(poly: Any) -> list[Fraction]:
-    return [Fraction(int(c.p), int(c.q)) for c in poly.all_coeffs()[::-1]]
 
 
 def is_root(part: Any, candidate: Integers, place: Callable[[int], Rectangle]) -> bool:
