@@ -22,7 +22,7 @@ from pdtheory.drawing.choice import Choice, check_choice, check_size
 from pdtheory.drawing.glyphs import CERTAIN
 from pdtheory.drawing.view import View, natural_view
 from pdtheory.errors import ComputationError, InputError
-from pdtheory.pointset.cloud import FloatArray, PointCloud
+from pdtheory.pointset.cloud import PointCloud
 from pdtheory.pointset.field import DirectionField
 
 Progress = Callable[[float, str], None]
@@ -60,12 +60,6 @@ class DrawingJob:
     view: View
     size: tuple[int, int]
     rays: int
-
-    @property
-    def surface_points(self) -> FloatArray:
-        """(N, 3) finite points of what is drawn."""
-        points = self.field.points if self.cloud is None else self.cloud.points
-        return points[np.isfinite(points).all(axis=1)]
 
 
 def draw_field(
@@ -165,14 +159,8 @@ def _job(
         raise InputError(
             f"the field holds no directions of order {named} to draw (kind {choice.kind})."
         )
-    points = field.points if cloud is None else cloud.points
-    finite = np.isfinite(points).all(axis=1)
-    if finite.sum() < 3:
-        raise InputError("the surface has fewer than three finite points; nothing to draw.")
     up, azimuth, elevation = place
-    view = natural_view(
-        points[finite], field.frames[:, 2], up=up, azimuth=azimuth, elevation=elevation
-    )
+    view = natural_view(field, cloud, up=up, azimuth=azimuth, elevation=elevation)
     return DrawingJob(field, cloud, output.name, choice, view, check_size(size), rays)
 
 

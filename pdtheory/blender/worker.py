@@ -62,11 +62,12 @@ def build_scene(job: DrawingJob) -> Any:
     from pdtheory.blender.surface import add_points, add_surface
     from pdtheory.conventions import Kind
     from pdtheory.drawing.glyphs import glyph_data
+    from pdtheory.drawing.view import surface_points
 
     stage = scene.new_file()
     stage.render.resolution_x, stage.render.resolution_y = job.size
     stage.render.resolution_percentage = 100
-    points = job.surface_points
+    points = surface_points(job.field, job.cloud)
     low, high = points.min(axis=0), points.max(axis=0)
     diagonal = float(np.linalg.norm(high - low))
     centre = (low + high) / 2.0

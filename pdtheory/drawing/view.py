@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from pdtheory.errors import InputError
-from pdtheory.pointset.cloud import FloatArray
+from pdtheory.pointset.cloud import FloatArray, PointCloud
+from pdtheory.pointset.field import DirectionField
 
 #: Rows right, back, up of the stage for each axis that may point up. The front is -y where z is up,
 #: as in Blender, and +z where y is up, as in most scans.
@@ -60,9 +61,15 @@ class View:
         return np.array(_STAGE[self.up], dtype=np.float64)
 
 
+def surface_points(field: DirectionField, cloud: PointCloud | None) -> FloatArray:
+    """Return the (N, 3) finite points of a surface, those of the field if it is not known."""
+    points = field.points if cloud is None else cloud.points
+    return points[np.isfinite(points).all(axis=1)]
+
+
 def natural_view(
-    points: FloatArray,
-    normals: FloatArray | None = None,
+    field: DirectionField,
+    cloud: PointCloud | None,
     *,
     up: str | None = None,
     azimuth: float | None = None,
@@ -75,16 +82,22 @@ def natural_view(
 
     Parameters
     ----------
-    points : (P, 3) float64
-        Finite points of the surface.
-    normals : (P, 3) float64, optional
-        Their normals.
+    field
+        The directions, with the normals of the surface.
+    cloud
+        The surface; that of the points of the field if it is not known.
     up, azimuth, elevation
         As in :class:`View`.
+
+    Raises
+    ------
+    InputError
+        If the surface has fewer than three finite points, or what is given is no :class:`View`.
     """
-    mean = np.zeros(3)
-    if normals is not None and len(normals):
-        mean = np.nan_to_num(normals).mean(axis=0)
+    points = surface_points(field, cloud)
+    if len(points) < 3:
+        raise InputError("the surface has fewer than three finite points; nothing to draw.")
+    mean = np.nan_to_num(field.frames[:, 2]).mean(axis=0) if len(field) else np.zeros(3)
     graph = float(np.linalg.norm(mean)) > _ONE_SIDED
     extent = points.max(axis=0) - points.min(axis=0)
     thin = np.argsort(extent)

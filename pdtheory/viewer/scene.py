@@ -8,7 +8,7 @@ import numpy as np
 
 from pdtheory.conventions import order_colour
 from pdtheory.drawing.choice import Choice
-from pdtheory.drawing.view import View
+from pdtheory.drawing.view import View, surface_points
 from pdtheory.pointset.cloud import PointCloud
 from pdtheory.pointset.field import DirectionField
 from pdtheory.viewer.strokes import Strokes, cells, discs
@@ -57,8 +57,7 @@ class FieldView:
         self._offered = field.orders
         plotter.set_background("white")
         plotter.enable_anti_aliasing("ssaa")
-        points = field.points if cloud is None else cloud.points
-        self._points = points[np.isfinite(points).all(axis=1)]
+        self._points = surface_points(field, cloud)
         self._place_camera(view)
         self._add_surface(field, cloud)
         self.refresh()

@@ -9,12 +9,10 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from pdtheory.atomic import atomic_path
 from pdtheory.drawing.choice import check_choice, check_size
 from pdtheory.drawing.glyphs import CERTAIN
-from pdtheory.drawing.view import View, natural_view
+from pdtheory.drawing.view import natural_view
 from pdtheory.errors import ComputationError, InputError, MissingDependencyError
 from pdtheory.pointset.cloud import PointCloud
 from pdtheory.pointset.field import DirectionField
@@ -92,7 +90,7 @@ def view_field(
             "there is no display to open a window on; write a picture with screenshot instead "
             "(--screenshot on the command line)."
         )
-    place = _view(field, cloud, up, azimuth, elevation)
+    place = natural_view(field, cloud, up=up, azimuth=azimuth, elevation=elevation)
     pyvista = _pyvista()
     plotter = pyvista.Plotter(off_screen=screenshot is not None, window_size=list(size))
     try:
@@ -167,7 +165,7 @@ def widget(
             "`pip install 'pyvista[jupyter]'` (extra notebook)."
         ) from error
     plotter = pyvista.Plotter(notebook=True, off_screen=True, window_size=list(size))
-    scene = FieldView(field, cloud, choice, _view(field, cloud, None, None, None), plotter)
+    scene = FieldView(field, cloud, choice, natural_view(field, cloud), plotter)
     scene.add_controls()
     with _own_server(pyvista):
         # Drawn by the kernel, where the switches live. A fixed width would be cut off on the right,
@@ -202,20 +200,6 @@ def _own_server(pyvista: Any) -> Iterator[None]:
         settings.jupyter_server_name = shared
         if vtklocal is not None:
             vtklocal.initialize = initialize
-
-
-def _view(
-    field: DirectionField,
-    cloud: PointCloud | None,
-    up: str | None,
-    azimuth: float | None,
-    elevation: float | None,
-) -> View:
-    points = field.points if cloud is None else cloud.points
-    finite = points[np.isfinite(points).all(axis=1)]
-    if len(finite) < 3:
-        raise InputError("the surface has fewer than three finite points; nothing to show.")
-    return natural_view(finite, field.frames[:, 2], up=up, azimuth=azimuth, elevation=elevation)
 
 
 def _has_display() -> bool:

@@ -13,11 +13,12 @@ import pytest
 
 from pdtheory.conventions import order_colour
 from pdtheory.drawing.choice import Choice, check_choice
+from pdtheory.drawing.view import natural_view
 from pdtheory.errors import ComputationError, InputError, MissingDependencyError
 from pdtheory.pointset import DirectionField, PointCloud, estimate_directions
 from pdtheory.viewer.scene import FieldView
 from pdtheory.viewer.strokes import Strokes, cells, discs
-from pdtheory.viewer.window import _view, view_field, widget
+from pdtheory.viewer.window import view_field, widget
 from tests.pointset.surfaces import torus
 
 needs_pyvista = pytest.mark.skipif(
@@ -42,7 +43,7 @@ def scene(field):
     """A view of the torus, off-screen."""
     pyvista = pytest.importorskip("pyvista", reason="PyVista is not installed (extra viewer)")
     plotter = pyvista.Plotter(off_screen=True, window_size=[320, 240])
-    place = _view(field, None, None, None, None)
+    place = natural_view(field, None)
     yield FieldView(field, None, Choice((2, 3), strokes=200), place, plotter)
     plotter.close()
 
