@@ -53,10 +53,10 @@ def draw(
     """
     from math import radians
 
-    from pdtheory.blender import draw_field
+    from pdtheory.blender.draw import SUFFIXES, draw_field
     from pdtheory.io import read_cloud
 
-    check_target(output, (".png", ".blend"))
+    check_target(output, SUFFIXES)
     wanted = None if orders is None else parse_orders(orders)
     pixels = parse_size(size)
     directions = load_drawable(field)

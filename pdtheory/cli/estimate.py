@@ -22,9 +22,6 @@ if TYPE_CHECKING:
 
 N = TypeVar("N")
 
-#: Files that `pdtheory.io.write_field` makes.
-FIELD_SUFFIXES = (".npz", ".ply", ".vtp", ".csv")
-
 #: Neighbours per unknown of the regression when no neighbourhood is asked for.
 NEIGHBOURS_PER_UNKNOWN = 4
 
@@ -89,6 +86,9 @@ def estimate(
 
     Example: pdtheory estimate scan.ply -o field.npz --neighbours 80 --degree 6 --orders 2,3,4
     """
+    from pdtheory.io import read_cloud
+    from pdtheory.io.write import FIELD_SUFFIXES
+
     wanted = parse_orders(orders)
     folder = _folder(output, resume)
     for target in output if folder is None else ():
@@ -104,8 +104,6 @@ def estimate(
     ]
     if len(chosen) > 1:
         raise InputError(f"{' and '.join(chosen)} exclude each other; give one of them.")
-
-    from pdtheory.io import read_cloud
 
     cloud = read_cloud(source, samples=samples, seed=seed)
     degrees = _number_or_auto(degree, "--degree", int)
