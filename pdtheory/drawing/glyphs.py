@@ -79,7 +79,7 @@ def glyph_data(field: DirectionField, orders: Iterable[int] | None = None) -> Gl
     usable = np.zeros(len(field), dtype=bool)
     certain = np.zeros(len(field), dtype=np.int64)
     for row in rows:
-        usable |= np.diff(row.offsets) > 0
+        usable |= row.counts > 0
         sure = row.point_index[row.angle_std <= CERTAIN]
         certain[np.unique(sure)] += 1
     spots = choose_spots(field.points, usable, preference=certain)

@@ -115,7 +115,7 @@ def turned(first: OrderDirections, second: OrderDirections) -> FloatArray:
     """
     a, b = first.maxima, second.maxima
     result = []
-    for point in np.flatnonzero(np.diff(a.offsets)):
+    for point in np.flatnonzero(a.counts):
         mine, others = a.vectors[int(point)], b.vectors[int(point)]
         if not len(others):
             result.append(180.0)

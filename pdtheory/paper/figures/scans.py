@@ -157,7 +157,7 @@ def show(scan: Scan, job: Job) -> tuple[Shown, list[Check], dict[str, object]]:
     twist = np.concatenate(
         [
             turned(field[order], again[order])[
-                chosen[np.flatnonzero(np.diff(field[order].maxima.offsets))] == order
+                chosen[np.flatnonzero(field[order].maxima.counts)] == order
             ]
             for order in scan.orders
         ]
