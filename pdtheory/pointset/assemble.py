@@ -12,7 +12,8 @@ from pdtheory.pointset.cloud import FloatArray, IntArray
 from pdtheory.pointset.directions import OrderDirections
 from pdtheory.pointset.engine import Engine
 from pdtheory.pointset.field import DirectionField
-from pdtheory.pointset.kernels.results import COLUMNS, make_columns, place
+from pdtheory.pointset.kernels import results
+from pdtheory.pointset.kernels.results import COLUMNS, place
 from pdtheory.pointset.pool import Flag
 from pdtheory.pointset.selection import Selector
 
@@ -77,13 +78,13 @@ class Collector:
         found = self._found
         return DirectionField(
             points=self._points,
-            frames=found.frames,
-            radius=found.radius,
-            degree=found.degree,
-            neighbours=found.neighbours,
-            residual_rms=found.residual,
-            condition=found.condition,
-            status=found.status,
+            frames=found.numbers[:, results.FRAME : results.FRAME + 9].reshape(-1, 3, 3),
+            radius=found.column(results.RADIUS),
+            degree=found.integers(results.DEGREE),
+            neighbours=found.integers(results.NEIGHBOURS),
+            residual_rms=found.column(results.RESIDUAL),
+            condition=found.column(results.CONDITION),
+            status=found.integers(results.STATUS),
             phi=found.phi,
             phi_order=self._table[:, 0],
             phi_frequency=self._table[:, 1],
@@ -92,16 +93,24 @@ class Collector:
 
     def _directions(self, j: int) -> OrderDirections:
         """Return the directions of one order."""
-        counts = self._found.counts
+        counts = self._found.lengths
         order = int(self._engine.orders[j])
         offsets = np.concatenate(([0], np.cumsum(2 * counts[j])))
-        columns = make_columns(int(offsets[-1]))
+        total = int(offsets[-1])
+        numbers = np.empty((results.VECTOR, total))
+        vectors, kinds = np.empty((total, 3)), np.empty(total, np.int8)
         for slots, rows in self._chunks:
             start = int(counts[:j, slots].sum())
-            place(rows[start:], order % 2 == 1, slots, offsets, columns)
+            place(rows[start:], order % 2 == 1, slots, offsets, numbers, vectors, kinds)
         return OrderDirections(
             order=order,
             offsets=offsets,
-            isotropic=self._found.isotropic[j],
-            **columns._asdict(),
+            vector=vectors,
+            kind=kinds,
+            isotropic=self._found.counts[j] < 0,
+            angle=numbers[results.ANGLE],
+            eigenvalue=numbers[results.EIGENVALUE],
+            strength=numbers[results.STRENGTH],
+            angle_std=numbers[results.ANGLE_STD],
+            eigenvalue_std=numbers[results.EIGENVALUE_STD],
         )

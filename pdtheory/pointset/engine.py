@@ -17,7 +17,14 @@ from pdtheory.pointset.kernels.chunk import fit_chunk
 from pdtheory.pointset.kernels.directions import BENCH, find_directions
 from pdtheory.pointset.kernels.fit import Settings
 from pdtheory.pointset.kernels.grid import Grid, build_grid, cell_order
-from pdtheory.pointset.kernels.results import COLUMNS, Found, Traces, make_found
+from pdtheory.pointset.kernels.results import (
+    COLUMNS,
+    NEIGHBOURS,
+    RADIUS,
+    Found,
+    Traces,
+    make_found,
+)
 from pdtheory.pointset.kernels.tables import WORKSPACE, make_cloud, make_record, make_tables
 from pdtheory.pointset.neighbourhoods import Choice, nearest, refuse_crowd
 from pdtheory.pointset.pool import Flag
@@ -155,10 +162,10 @@ class Engine:
         size = len(where)
         if self._tree is None:
             lists = np.empty((0, 0), np.int64)
-            found.radius[slots] = self.choice.radius
+            found.numbers[slots, RADIUS] = self.choice.radius
         else:
             radii, lists = nearest(self._tree, self.queries[where], self.choice.neighbours or 0)
-            found.radius[slots] = radii
+            found.numbers[slots, RADIUS] = radii
         memory = self._memory
         entries = int(((self.orders + 1) ** 2).sum()) if self.settings.uncertainty else 0
         traces = Traces(
@@ -193,7 +200,7 @@ class Engine:
             if done >= 0:
                 break
             begin = -1 - done
-            memory.cloud = make_cloud(2 * int(found.neighbours[slots[begin]]))
+            memory.cloud = make_cloud(2 * int(found.numbers[slots[begin], NEIGHBOURS]))
         rows = memory.array("rows", size * int(self.orders.sum()), COLUMNS)
         count = find_directions(self.orders, tables, memory.bench, flag, traces, slots, found, rows)
         return rows[:count]

@@ -28,7 +28,17 @@ import numpy.typing as npt
 from pdtheory.conventions import UNANSWERED, wavejets_table
 from pdtheory.pointset.cloud import FloatArray, IntArray
 from pdtheory.pointset.engine import Engine
-from pdtheory.pointset.kernels.results import COLUMNS, EIGENVALUE_STD, Found, make_found
+from pdtheory.pointset.kernels.results import (
+    COLUMNS,
+    DEGREE,
+    EIGENVALUE_STD,
+    NOISE,
+    RADIUS,
+    RESIDUAL,
+    STATUS,
+    Found,
+    make_found,
+)
 from pdtheory.pointset.pool import Flag
 
 #: Standard deviations by which g_k may differ from that of a candidate with less bias, where the
@@ -38,8 +48,6 @@ BIASED, UNKNOWN = 1.0, 2.0
 PRICE = 3.0
 #: Highest degree that is tried, unless the orders ask for more.
 HIGHEST = 10
-#: What is handed on of the fits beside their coefficients.
-_KEPT = ("frames", "radius", "degree", "neighbours", "residual", "noise", "condition", "status")
 
 
 def candidate_degrees(orders: Sequence[int] | IntArray, largest: int) -> list[int]:
@@ -70,13 +78,20 @@ class _Result(NamedTuple):
     @property
     def able(self) -> npt.NDArray[np.bool_]:
         """(Q,) whether there is an answer with the degree asked for."""
-        answered = (self.found.status & int(UNANSWERED)) == 0
-        return answered & (self.found.degree == self.degree)
+        answered = (self.found.integers(STATUS) & int(UNANSWERED)) == 0
+        return answered & (self.found.numbers[:, DEGREE] == self.degree)
+
+    @property
+    def radii(self) -> FloatArray:
+        """(Q,) the radius."""
+        radii: FloatArray = self.found.numbers[:, RADIUS]
+        return radii
 
     @property
     def score(self) -> FloatArray:
         """(Q,) how badly the heights are described, coefficients paid for; -inf if exactly."""
-        squared, noise = self.found.residual**2, self.found.noise**2
+        squared = self.found.numbers[:, RESIDUAL] ** 2
+        noise = self.found.numbers[:, NOISE] ** 2
         with np.errstate(divide="ignore", invalid="ignore"):
             # noise^2 = r^2 / (1 - t), so t / (1 - t) follows from the two.
             score = np.log(squared) + PRICE * (noise / squared - 1.0)
@@ -146,19 +161,19 @@ class Selector:
         tolerance = np.array([self._tolerance(one, (*results, *witnesses)) for one in results])
         tenable = able.copy()
         spread = np.zeros(able.shape)
-        scale = results[0].found.radius
+        scale = results[0].radii
         for j, order in enumerate(self.orders):
             unit = scale ** (order - 1.0)
             g = [_row_of_order(result, int(order)) * unit[:, None] for result in results]
             variance = [_variance(result, j, unit / factorial(order)) for result in results]
-            isotropic = [result.found.isotropic[j] for result in results]
+            isotropic = [result.found.counts[j] < 0 for result in results]
             # Zero is a candidate without noise.
             spread += np.log(np.clip(variance, 1e-300, 1e300))
             for i, one in enumerate(results):
                 for other, two in enumerate(results):
                     if i == other or two.degree < one.degree:
                         continue
-                    better = able[other] & (two.found.radius <= one.found.radius)
+                    better = able[other] & (two.radii <= one.radii)
                     both_round = isotropic[i] & isotropic[other]
                     difference = np.sum(np.abs(g[i] - g[other]) ** 2, axis=1)
                     with np.errstate(invalid="ignore"):
@@ -169,7 +184,7 @@ class Selector:
 
     def _tolerance(self, one: _Result, others: Sequence[_Result]) -> FloatArray:
         """Return the standard deviations that differences to better candidates may have."""
-        size = len(one.found.radius)
+        size = len(one.radii)
         if self.settings.robust:
             # The residuals of l1 follow no law that degrees could be compared by.
             return np.full(size, UNKNOWN)
@@ -177,7 +192,7 @@ class Selector:
         biased = np.zeros(size, np.bool_)
         for two in others:
             if two.degree > one.degree:
-                here = two.able & (two.found.radius == one.found.radius)
+                here = two.able & (two.radii == one.radii)
                 asked |= here
                 biased |= here & (two.score < one.score)
         return np.where(asked, np.where(biased, BIASED, np.inf), UNKNOWN)
@@ -189,19 +204,17 @@ class Selector:
         for number, result in enumerate(results):
             here = np.flatnonzero(chosen == number)
             there, own = slots[here], result.found
-            for name in _KEPT:
-                getattr(found, name)[there] = getattr(own, name)[here]
+            found.numbers[there] = own.numbers[here]
             # Zero above the degree, NaN where there is no answer.
             found.phi[there] = np.where(np.isnan(own.phi[here, :1]), np.nan, 0.0)
             found.phi[there, : own.phi.shape[1]] = own.phi[here]
             found.counts[:, there] = own.counts[:, here]
-            found.isotropic[:, there] = own.isotropic[:, here]
         # The rows stand order by order, so the counts of all orders in turn tell where.
-        counts = found.counts[:, slots].ravel()
+        counts = np.maximum(found.counts[:, slots], 0).ravel()
         rows = np.empty((int(counts.sum()), COLUMNS))
         for number, result in enumerate(results):
             here = np.flatnonzero(np.tile(chosen == number, len(self.orders)))
-            own_rows = result.rows[_rows_of(result.found.counts.ravel(), here)]
+            own_rows = result.rows[_rows_of(result.found.lengths.ravel(), here)]
             rows[_rows_of(counts, here)] = own_rows
         return rows
 
@@ -223,10 +236,11 @@ def _row_of_order(result: _Result, order: int) -> npt.NDArray[np.complex128]:
 
 def _variance(result: _Result, j: int, unit: FloatArray) -> FloatArray:
     """Return the variance of the order's g, the mean over its directions; 0 if it is isotropic."""
-    counts = result.found.counts[j]
-    start = int(result.found.counts[:j].sum())
+    lengths = result.found.lengths
+    counts = lengths[j]
+    start = int(lengths[:j].sum())
     point = np.repeat(np.arange(len(counts)), counts)
     std = result.rows[start : start + len(point), EIGENVALUE_STD] * unit[point]
     total = np.bincount(point, std**2, len(counts))
     mean = np.divide(total, counts, out=np.full(len(counts), np.inf), where=counts > 0)
-    return np.where(result.found.isotropic[j], 0.0, mean)
+    return np.where(result.found.counts[j] < 0, 0.0, mean)

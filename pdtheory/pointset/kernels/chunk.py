@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from pdtheory.conventions import Status
+from pdtheory.pointset.kernels import results
 from pdtheory.pointset.kernels.fit import FRAME_TANGENT, OUTSIDE, Fit, Settings, finish, fit_point
 from pdtheory.pointset.kernels.frames import output_frame
 from pdtheory.pointset.kernels.grid import Grid, find_runs, gather, gather_listed, locate
@@ -98,15 +99,12 @@ def _write_phi(
 @inner
 def _leave_open(out: Found, slot: int, neighbours: int, status: int) -> None:
     """Write that there is no answer at a point."""
-    for axis in range(3):
-        for i in range(3):
-            out.frames[slot, axis, i] = np.nan
-    out.degree[slot] = 0
-    out.neighbours[slot] = neighbours
-    out.residual[slot] = np.nan
-    out.noise[slot] = np.nan
-    out.condition[slot] = np.nan
-    out.status[slot] = status
+    for i in range(results.NUMBERS):
+        if i != results.RADIUS:
+            out.numbers[slot, i] = np.nan
+    out.numbers[slot, results.DEGREE] = 0.0
+    out.numbers[slot, results.NEIGHBOURS] = neighbours
+    out.numbers[slot, results.STATUS] = status
     for i in range(out.phi.shape[1]):
         out.phi[slot, i] = complex(np.nan, 0.0)
 
@@ -214,7 +212,7 @@ def fit_chunk(
     slots : (C,) int64
         Where in `out` their results go.
     out : Found
-        Everything but ``counts`` and ``isotropic`` is filled in for them; ``radius`` is there.
+        Numbers and ``phi`` are filled in for them; the radius is there.
 
     Returns
     -------
@@ -237,7 +235,7 @@ def fit_chunk(
             continue
         query = queries[where[q]]
         reference = references[where[q]]
-        radius = out.radius[slot]
+        radius = out.numbers[slot, results.RADIUS]
         if lists.shape[0] > 0:
             total = lists.shape[1]
         else:
@@ -247,7 +245,7 @@ def fit_chunk(
                     last[axis] = here[axis]
                 count, total = find_runs(grid, here[0], here[1], here[2], runs)
         if total + LANES > cloud.shape[1]:
-            out.neighbours[slot] = total + LANES
+            out.numbers[slot, results.NEIGHBOURS] = total + LANES
             return -1 - q
         if not radius > 0.0:
             _leave_open(out, slot, total, _UNANSWERED)
@@ -270,15 +268,19 @@ def fit_chunk(
         if fit.status & _UNANSWERED:
             _leave_open(out, slot, fit.neighbours, fit.status)
             continue
-        out.neighbours[slot] = fit.neighbours
-        out.status[slot] = finish(fit, tangent, w)
-        c, s = output_frame(w.frame, out.frames[slot])
+        numbers = out.numbers[slot]
+        numbers[results.NEIGHBOURS] = fit.neighbours
+        numbers[results.STATUS] = finish(fit, tangent, w)
+        c, s = output_frame(w.frame, w.B)
+        for axis in range(3):
+            for i in range(3):
+                numbers[results.FRAME + 3 * axis + i] = w.B[axis, i]
         traces.turn[q, 0] = c
         traces.turn[q, 1] = s
-        out.degree[slot] = fit.degree
-        out.residual[slot] = fit.residual * radius
-        out.noise[slot] = np.nan
-        out.condition[slot] = fit.pivot
+        numbers[results.DEGREE] = fit.degree
+        numbers[results.RESIDUAL] = fit.residual * radius
+        numbers[results.NOISE] = np.nan
+        numbers[results.CONDITION] = fit.pivot
         _write_phi(w.c, fit, c, s, radius, tables, w, out.phi[slot])
         level = 2.3e-16 + coordinate_rounding / radius
         for j in range(len(orders)):
@@ -288,5 +290,5 @@ def fit_chunk(
             noise = _write_covariances(
                 cloud, n, fit, orders, settings, robust, tables, w, traces.covariance[q]
             )
-            out.noise[slot] = noise * radius
+            numbers[results.NOISE] = noise * radius
     return len(where)

@@ -122,17 +122,17 @@ def _bracket(
     for q in range(start, end):
         bench.found[q - start] = 0
         slot = slots[q]
-        out.isotropic[j, slot] = False
-        if not out.degree[slot] >= order:
+        out.counts[j, slot] = 0
+        if not out.numbers[slot, results.DEGREE] >= order:
             continue
         scale = 1.0
         for _ in range(order - 1):
-            scale *= out.radius[slot]
+            scale *= out.numbers[slot, results.RADIUS]
         bench.scale[q - start] = scale
         largest, swing = _scale_term(out.phi[slot], column, order, scale, bench)
         bench.largest[q - start] = largest
         if swing <= traces.blur[q, j]:
-            out.isotropic[j, slot] = True
+            out.counts[j, slot] = -1
             continue
         found = bracket_angles(
             bench.re,
@@ -148,6 +148,7 @@ def _bracket(
             total,
         )
         bench.found[q - start] = found
+        out.counts[j, slot] = found
         total += found
     return total
 
@@ -173,10 +174,9 @@ def _store(
     at = 0
     for q in range(start, end):
         count = int(bench.found[q - start])
-        slot = slots[q]
-        out.counts[j, slot] = count
         if count == 0:
             continue
+        numbers = out.numbers[slots[q]]
         unit = factorial / bench.scale[q - start]
         largest = bench.largest[q - start]
         for _ in range(count):
@@ -200,8 +200,8 @@ def _store(
                 angle_std = slope / curvature if curvature > 0.0 else np.inf
             rows[row, results.ANGLE] = table[ANGLE, at]
             for axis in range(3):
-                along = c * out.frames[slot, 0, axis] + s * out.frames[slot, 1, axis]
-                rows[row, results.VECTOR + axis] = along
+                first = numbers[results.FRAME + axis]
+                rows[row, results.VECTOR + axis] = c * first + s * numbers[results.FRAME + 3 + axis]
             rows[row, results.EIGENVALUE] = g * unit
             rows[row, results.STRENGTH] = abs(g)
             rows[row, results.ANGLE_STD] = angle_std
@@ -234,7 +234,7 @@ def find_directions(
     stop : (1,) uint8
         Set to non-zero by another thread to end the work.
     traces, slots, out
-        As `fit_chunk` leaves them; ``counts`` and ``isotropic`` are filled in.
+        As `fit_chunk` leaves them; ``counts`` are filled in.
     rows : (>= C sum of orders, COLUMNS) float64
         Receives the directions of the half circle, order by order and, in each, point by point.
 

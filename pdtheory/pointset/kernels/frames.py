@@ -241,18 +241,25 @@ def principal_frame(
 @inner
 def complete(frame: Array) -> None:
     """Make row 0 orthogonal to row 2, both unit, and set row 1 = row 2 x row 0."""
-    size = np.sqrt(frame[2, 0] ** 2 + frame[2, 1] ** 2 + frame[2, 2] ** 2)
+    square = 0.0
+    for i in range(3):
+        square += frame[2, i] * frame[2, i]
+    size = np.sqrt(square)
+    along = 0.0
     for i in range(3):
         frame[2, i] /= size
-    along = frame[0, 0] * frame[2, 0] + frame[0, 1] * frame[2, 1] + frame[0, 2] * frame[2, 2]
+        along += frame[0, i] * frame[2, i]
+    square = 0.0
     for i in range(3):
         frame[0, i] -= along * frame[2, i]
-    size = np.sqrt(frame[0, 0] ** 2 + frame[0, 1] ** 2 + frame[0, 2] ** 2)
+        square += frame[0, i] * frame[0, i]
+    size = np.sqrt(square)
     for i in range(3):
         frame[0, i] /= size
-    frame[1, 0] = frame[2, 1] * frame[0, 2] - frame[2, 2] * frame[0, 1]
-    frame[1, 1] = frame[2, 2] * frame[0, 0] - frame[2, 0] * frame[0, 2]
-    frame[1, 2] = frame[2, 0] * frame[0, 1] - frame[2, 1] * frame[0, 0]
+    for i in range(3):
+        j = (i + 1) % 3
+        k = (i + 2) % 3
+        frame[1, i] = frame[2, j] * frame[0, k] - frame[2, k] * frame[0, j]
 
 
 @inner

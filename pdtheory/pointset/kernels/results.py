@@ -8,56 +8,52 @@ import numpy as np
 
 from pdtheory.pointset.kernels.jit import Array, IntArray, kernel
 
+#: Columns of the numbers of a point: the frame that is handed out, row by row; radius, degree used,
+#: points within the radius; root mean square of the residuals and standard deviation of the heights
+#: that the error bars rest on, in world units; smallest relative pivot; status flags.
+FRAME, RADIUS, DEGREE, NEIGHBOURS = 0, 9, 10, 11
+RESIDUAL, NOISE, CONDITION, STATUS, NUMBERS = 12, 13, 14, 15, 16
+
 
 class Found(NamedTuple):
     """What is found at Q points in J orders.
 
+    The numbers of a point stand side by side, since a run visits the points in its own order.
+
     Attributes
     ----------
-    frames : (Q, 3, 3) float64
-        Frames handed out.
-    radius : (Q,) float64
-        Radius of the neighbourhood.
-    degree, neighbours, status : (Q,) int64
-        Degree used, points within the radius, flags.
-    residual, noise, condition : (Q,) float64
-        Root mean square residual and standard deviation of the heights that the error bars rest on,
-        in world units; smallest relative pivot.
+    numbers : (Q, NUMBERS) float64
+        The columns named above.
     phi : (Q, M) complex128
         All Wavejets coefficients in these frames, in world units.
     counts : (J, Q) int64
-        Number of directions on the half circle.
-    isotropic : (J, Q) bool
-        Where an order is constant.
+        Number of directions on the half circle; -1 where an order is constant.
     """
 
-    frames: Any
-    radius: Any
-    degree: Any
-    neighbours: Any
-    residual: Any
-    noise: Any
-    condition: Any
-    status: Any
+    numbers: Any
     phi: Any
     counts: Any
-    isotropic: Any
+
+    def column(self, number: int) -> Any:
+        """Return one of the columns, shape (Q,)."""
+        return self.numbers[:, number].copy()
+
+    def integers(self, number: int) -> Any:
+        """Return one of the columns as int64, shape (Q,)."""
+        return self.numbers[:, number].astype(np.int64)
+
+    @property
+    def lengths(self) -> Any:
+        """(J, Q) int64: number of directions on the half circle, 0 where an order is constant."""
+        return np.maximum(self.counts, 0)
 
 
 def make_found(size: int, orders: int, columns: int) -> Found:
     """Allocate what the kernels fill in for `size` points, with any contents."""
     return Found(
-        np.empty((size, 3, 3)),
-        np.empty(size),
-        np.empty(size, np.int64),
-        np.empty(size, np.int64),
-        np.empty(size),
-        np.empty(size),
-        np.empty(size),
-        np.empty(size, np.int64),
+        np.empty((size, NUMBERS)),
         np.empty((size, columns), np.complex128),
         np.empty((orders, size), np.int64),
-        np.empty((orders, size), np.bool_),
     )
 
 
@@ -82,38 +78,21 @@ class Traces(NamedTuple):
 
 #: Columns of the rows of directions, which stand order by order and, in each, point by point. Only
 #: those of the half circle have rows; what they hold is told by :class:`OrderDirections`.
-ANGLE, VECTOR, EIGENVALUE, STRENGTH = 0, 1, 4, 5
-ANGLE_STD, EIGENVALUE_STD, KIND, COLUMNS = 6, 7, 8, 9
-
-
-class Columns(NamedTuple):
-    """The same directions of one order column by column, (M,) each but for ``vector``, (M, 3)."""
-
-    angle: Any
-    vector: Any
-    eigenvalue: Any
-    strength: Any
-    angle_std: Any
-    eigenvalue_std: Any
-    kind: Any
-
-
-def make_columns(size: int) -> Columns:
-    """Allocate the columns of `size` directions, with any contents."""
-    return Columns(
-        np.empty(size),
-        np.empty((size, 3)),
-        np.empty(size),
-        np.empty(size),
-        np.empty(size),
-        np.empty(size),
-        np.empty(size, np.int8),
-    )
+ANGLE, EIGENVALUE, STRENGTH, ANGLE_STD, EIGENVALUE_STD = range(5)
+VECTOR, KIND, COLUMNS = 5, 8, 9
 
 
 @kernel
-def place(rows: Array, odd: bool, slots: IntArray, offsets: IntArray, out: Columns) -> None:
-    """Bring rows to the columns: at each point those of the half circle, then the opposite ones.
+def place(
+    rows: Array,
+    odd: bool,
+    slots: IntArray,
+    offsets: IntArray,
+    numbers: Array,
+    vectors: Array,
+    kinds: Any,
+) -> None:
+    """Bring rows to where they belong: at each point the half circle, then the opposite directions.
 
     Parameters
     ----------
@@ -124,25 +103,28 @@ def place(rows: Array, odd: bool, slots: IntArray, offsets: IntArray, out: Colum
     slots : (C,) int64
         These points.
     offsets : (Q + 1,) int64
-        The directions of point q are the entries offsets[q]..offsets[q + 1] of the columns.
-    out : Columns
-        Receives them.
+        The directions of point q are the entries offsets[q]..offsets[q + 1] of what follows.
+    numbers : (VECTOR, M) float64
+        Receives the first columns.
+    vectors : (M, 3) float64
+        Receives the vectors.
+    kinds : (M,) int8
+        Receives the kinds.
     """
     first = 0
     for slot in slots:
         count = (offsets[slot + 1] - offsets[slot]) // 2
         for half in range(2):
-            way = -1.0 if half else 1.0
+            way = 1.0 - 2.0 * half
             sign = way if odd else 1.0
             to = offsets[slot] + half * count
             for row in range(first, first + count):
-                out.angle[to] = rows[row, ANGLE] + half * np.pi
+                for column in range(VECTOR):
+                    numbers[column, to] = rows[row, column]
+                numbers[ANGLE, to] += half * np.pi
+                numbers[EIGENVALUE, to] *= sign
                 for axis in range(3):
-                    out.vector[to, axis] = way * rows[row, VECTOR + axis]
-                out.eigenvalue[to] = sign * rows[row, EIGENVALUE]
-                out.strength[to] = rows[row, STRENGTH]
-                out.angle_std[to] = rows[row, ANGLE_STD]
-                out.eigenvalue_std[to] = rows[row, EIGENVALUE_STD]
-                out.kind[to] = np.int8(sign * rows[row, KIND])
+                    vectors[to, axis] = way * rows[row, VECTOR + axis]
+                kinds[to] = np.int8(sign * rows[row, KIND])
                 to += 1
         first += count
