@@ -15,14 +15,14 @@ from __future__ import annotations
 import argparse
 import subprocess
 import tempfile
-import time
 from pathlib import Path
 
 import numpy as np
+from pointset import median_time
 from scipy.spatial import cKDTree
 
 import synthetic_surfaces
-from pdtheory.pointset import PointCloud, estimate_directions
+from pdtheory.pointset import DirectionField, PointCloud, estimate_directions
 
 MAJOR, MINOR = 1.0, 0.4
 COUNT = 20_000
@@ -61,7 +61,6 @@ def main() -> None:
     parser.add_argument("--peers", required=True, help="a Python with PyMeshLab")
     peer = parser.parse_args().peers
     torus = synthetic_surfaces.get("torus", major=MAJOR, minor=MINOR).sample(COUNT, seed=1)
-    estimate_directions(torus, neighbours=64, degree=4, orders=(2,), threads=1)
     heads = ("noise", "reach", "N", "tool", "us", "curvature", "degrees")
     print("{:>7} {:>6} {:>5} {:>18} {:>6} {:>11} {:>8}".format(*heads))
     for noise in NOISE:
@@ -133,17 +132,15 @@ def _apss_errors(torus: PointCloud, found: dict[str, np.ndarray], key: str) -> t
 def _ours(
     cloud: PointCloud, torus: PointCloud, neighbours: int, degree: int
 ) -> tuple[float, float, float]:
-    times = []
-    for _ in range(5):
-        start = time.process_time()
-        field = estimate_directions(
+    def run() -> DirectionField:
+        return estimate_directions(
             cloud, neighbours=neighbours, degree=degree, orders=(2,), threads=1
         )
-        times.append(time.process_time() - start)
-    rows = field[2]
+
+    rows = run()[2]
     largest = np.array([part.argmax() for part in map(np.abs, rows.eigenvalues)])
     pick = rows.offsets[:-1] + largest
-    return float(np.median(times)), *_errors(rows.eigenvalue[pick], rows.vector[pick], torus)
+    return median_time(run), *_errors(rows.eigenvalue[pick], rows.vector[pick], torus)
 
 
 if __name__ == "__main__":
