@@ -110,14 +110,4 @@ def settings_of(operator, panel):
     return SimpleNamespace(**values)
 
 
-_CLASSES = (Compute, ProposeRadius)
-
-
-def register():
-    for each in _CLASSES:
-        bpy.utils.register_class(each)
-
-
-def unregister():
-    for each in reversed(_CLASSES):
-        bpy.utils.unregister_class(each)
+register, unregister = bpy.utils.register_classes_factory((Compute, ProposeRadius))

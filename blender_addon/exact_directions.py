@@ -113,9 +113,4 @@ def _places(points):
     ]
 
 
-def register():
-    bpy.utils.register_class(ShowExact)
-
-
-def unregister():
-    bpy.utils.unregister_class(ShowExact)
+register, unregister = bpy.utils.register_classes_factory((ShowExact,))

@@ -69,14 +69,4 @@ class ImportField(ImportHelper, bpy.types.Operator):
         return {"FINISHED"}
 
 
-_CLASSES = (ExportField, ImportField)
-
-
-def register():
-    for each in _CLASSES:
-        bpy.utils.register_class(each)
-
-
-def unregister():
-    for each in reversed(_CLASSES):
-        bpy.utils.unregister_class(each)
+register, unregister = bpy.utils.register_classes_factory((ExportField, ImportField))

@@ -128,14 +128,4 @@ class ShowBall(bpy.types.Operator):
         return {"FINISHED"}
 
 
-_CLASSES = (CopyRow, ShowBall)
-
-
-def register():
-    for each in _CLASSES:
-        bpy.utils.register_class(each)
-
-
-def unregister():
-    for each in reversed(_CLASSES):
-        bpy.utils.unregister_class(each)
+register, unregister = bpy.utils.register_classes_factory((CopyRow, ShowBall))

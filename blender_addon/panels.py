@@ -88,8 +88,7 @@ class DIRECTIONS_PT_result(_DirectionsPanel, bpy.types.Panel):  # noqa: N801
 
     @classmethod
     def poll(cls, context):
-        thing = surface_object(context)
-        return thing is not None and strokes_of(thing) is not None
+        return strokes_of(surface_object(context)) is not None
 
     def draw(self, context):
         layout = self.layout
@@ -147,8 +146,7 @@ class DIRECTIONS_PT_point(_DirectionsPanel, bpy.types.Panel):  # noqa: N801
 
     @classmethod
     def poll(cls, context):
-        thing = surface_object(context)
-        return thing is not None and strokes_of(thing) is not None
+        return strokes_of(surface_object(context)) is not None
 
     def draw(self, context):
         layout = self.layout
@@ -230,20 +228,12 @@ def _prop(layout, modifier, inputs, name):
     layout.prop(owner, path, text=name)
 
 
-_CLASSES = (
-    DIRECTIONS_PT_compute,
-    DIRECTIONS_PT_result,
-    DIRECTIONS_PT_drawing,
-    DIRECTIONS_PT_point,
-    DIRECTIONS_PT_polar,
+register, unregister = bpy.utils.register_classes_factory(
+    (
+        DIRECTIONS_PT_compute,
+        DIRECTIONS_PT_result,
+        DIRECTIONS_PT_drawing,
+        DIRECTIONS_PT_point,
+        DIRECTIONS_PT_polar,
+    )
 )
-
-
-def register():
-    for each in _CLASSES:
-        bpy.utils.register_class(each)
-
-
-def unregister():
-    for each in reversed(_CLASSES):
-        bpy.utils.unregister_class(each)

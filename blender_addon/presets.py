@@ -29,14 +29,4 @@ class AddPreset(AddPresetBase, bpy.types.Operator):
     preset_values = tuple(f"settings.{name}" for name in SETTING_NAMES)
 
 
-_CLASSES = (DIRECTIONS_MT_presets, AddPreset)
-
-
-def register():
-    for each in _CLASSES:
-        bpy.utils.register_class(each)
-
-
-def unregister():
-    for each in reversed(_CLASSES):
-        bpy.utils.unregister_class(each)
+register, unregister = bpy.utils.register_classes_factory((DIRECTIONS_MT_presets, AddPreset))

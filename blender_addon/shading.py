@@ -43,9 +43,4 @@ class ShowStrength(bpy.types.Operator):
         return {"FINISHED"}
 
 
-def register():
-    bpy.utils.register_class(ShowStrength)
-
-
-def unregister():
-    bpy.utils.unregister_class(ShowStrength)
+register, unregister = bpy.utils.register_classes_factory((ShowStrength,))
