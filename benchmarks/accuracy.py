@@ -34,8 +34,7 @@ from pathlib import Path
 
 import numpy as np
 import sympy as sp
-from pointset import build_cgal, torus_mesh
-from scipy.spatial import cKDTree
+from pointset import build_cgal, cgal_input, run_cgal, torus_mesh
 
 from pdtheory.pointset import estimate_directions
 
@@ -272,20 +271,6 @@ def tilt(trials: int, rng) -> None:
             print(f"K = {degree:<3d} sigma {sigma:<7g} {rows}", flush=True)
 
 
-def cgal_order_two(program: Path, points, lists, degree: int):
-    """Both curvatures and the direction of the larger, by CGAL on given neighbourhoods."""
-    text = [str(len(lists))]
-    for i, members in enumerate(lists):
-        members = [i, *(j for j in members if j != i)]
-        text.append(str(len(members)))
-        text += [" ".join(map(repr, map(float, points[j]))) for j in members]
-    done = subprocess.run(
-        [program, str(degree), "svd"], input="\n".join(text), capture_output=True, text=True,
-        check=True,
-    )  # fmt: skip
-    return np.array([line.split() for line in done.stdout.splitlines()], dtype=float)
-
-
 MESH_PEERS = """
 import sys
 import igl, numpy as np, pymeshlab
@@ -331,8 +316,8 @@ def peers(shapes, clean, queries: int, rng, build: Path, python: str | None) -> 
                         points, radius=RADIUS, orders=(2,), degree=degree,
                         queries=np.arange(queries), normals=shape.gradient(clean[name]),
                     )  # fmt: skip
-                    lists = cKDTree(points).query_ball_point(points[:queries], RADIUS)
-                    rows = cgal_order_two(program, points, lists, degree)
+                    text = cgal_input(points, queries, RADIUS)
+                    rows = run_cgal(program, degree, "svd", text)[1]
                     value, vector = by_modulus(rows, shape.gradient(clean[name][:queries]))
                     theirs = np.copysign(value, exact[0]), vector
                     table.append([*compare(larger(found_tensors(field)), exact),

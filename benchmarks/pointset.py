@@ -100,24 +100,28 @@ def build_cgal(folder: Path) -> Path | None:
     return program
 
 
+def cgal_input(points, queries: int, radius: float) -> str:
+    """The neighbourhoods of the first points, as the CGAL driver reads them."""
+    text = [str(queries)]
+    for i, members in enumerate(cKDTree(points).query_ball_point(points[:queries], radius)):
+        text.append(str(len(members)))
+        rows = [i, *(j for j in members if j != i)]
+        text += [" ".join(map(repr, map(float, points[j]))) for j in rows]
+    return "\n".join(text)
+
+
+def run_cgal(program: Path, degree: int, solver: str, text: str) -> tuple[float, np.ndarray]:
+    """Seconds of the fits, and rows of both curvatures, the larger first, and its direction."""
+    done = subprocess.run(
+        [program, str(degree), solver], input=text, capture_output=True, text=True, check=True
+    )
+    return float(done.stderr), np.array([line.split() for line in done.stdout.splitlines()], float)
+
+
 def cgal(program: Path, points, neighbours: int, degree: int, solver: str, queries: int):
     """Return a function for seconds per point of CGAL, fitting only, on the same neighbourhoods."""
-    tree = cKDTree(points)
-    lists = tree.query_ball_point(points[:queries], radius_for(neighbours, len(points)))
-    text = [str(queries)]
-    for i, members in enumerate(lists):
-        members = [i, *(j for j in members if j != i)]
-        text.append(str(len(members)))
-        text += [" ".join(map(repr, map(float, points[j]))) for j in members]
-
-    def run() -> float:
-        done = subprocess.run(
-            [program, str(degree), solver], input="\n".join(text), capture_output=True, text=True,
-            check=True,
-        )  # fmt: skip
-        return float(done.stderr) / queries
-
-    return run
+    text = cgal_input(points, queries, radius_for(neighbours, len(points)))
+    return lambda: run_cgal(program, degree, solver, text)[0] / queries
 
 
 def torus_mesh(count: int) -> tuple[np.ndarray, np.ndarray]:
