@@ -20,10 +20,10 @@ TILT_OF_RESIDUAL, TILT_OF_HEIGHT = 0.3, 1e-13
 
 @emit
 def spread_out(to: Lanes, c: Rows, degree: Any, table: Rows) -> None:
-    """Write coefficients to a table by powers, zeros elsewhere."""
-    with to.count(0, SIDE) as a:
-        for b in range(0, SIDE, LANES):
-            to.store(to.constant(0.0), table.at(a, b))
+    """Write coefficients to a table by powers, with zeros one degree above them."""
+    above = to.plus(degree, 2)
+    with to.count(0, above) as a, to.count(0, above, LANES) as b:
+        to.store(to.constant(0.0), table.at(a, b))
     row = to.variable(to.integer(1))
     with to.count(0, to.plus(degree, 1)) as lower:
         d = to.minus(degree, lower)
@@ -37,23 +37,19 @@ def spread_out(to: Lanes, c: Rows, degree: Any, table: Rows) -> None:
 def _shift_rows(to: Lanes, table: Rows, degree: Any, centre: Any) -> None:
     """Replace the powers x^a of the rows by those of x - centre."""
     by = to.spread(centre)
-    parts = range(0, SIDE, LANES)
-    with to.count(0, degree) as low:
-        last = [to.variable(to.load(table.at(degree, part))) for part in parts]
+    with to.count(0, to.plus(degree, 1), LANES) as part, to.count(0, degree) as low:
+        last = to.variable(to.load(table.at(degree, part)))
         with to.count(0, to.minus(degree, low)) as step:
-            row = to.minus(to.plus(degree, -1), step)
-            for part, value in zip(parts, last, strict=True):
-                at = table.at(row, part)
-                moved = to.subtract(to.load(at), to.times(by, to.get(value)))
-                to.put(moved, value)
-                to.store(moved, at)
+            at = table.at(to.minus(to.plus(degree, -1), step), part)
+            to.put(to.subtract(to.load(at), to.times(by, to.get(last))), last)
+            to.store(to.get(last), at)
 
 
 @emit
 def _transpose(to: Lanes, table: Rows, degree: Any, out: Rows) -> None:
     """Write the transpose of a table, zeros above the degree."""
     with to.count(0, to.plus(degree, 1)) as b:
-        for part in range(0, SIDE, LANES):
+        with to.count(0, to.plus(degree, 1), LANES) as part:
             to.store(to.constant(0.0), out.at(b, part))
         with to.count(0, to.plus(to.minus(degree, b), 1)) as a:
             to.put(to.get(table.at(a, b)), out.at(b, a))
@@ -160,11 +156,12 @@ def _fill_slope(to: Lanes, source: Rows, degree: Any, a: Any, b: Any, slope: Row
     with to.count(0, to.plus(degree, 1)) as i:
         times = to.builder.sitofp(to.plus(i, 1), to.real(0.0).type)
         across = to.spread(to.builder.fmul(a, times))
-        for part in range(0, SIDE, LANES):
+        powers = to.variable(to.times(along, to.sequence(1)))
+        with to.count(0, to.plus(degree, 1), LANES) as part:
             by_x = to.times(across, to.load(source.at(to.plus(i, 1), part)))
-            powers = to.times(along, to.sequence(part + 1))
-            by_y = to.times(powers, to.load(source.at(i, part + 1)))
-            to.store(to.add(by_x, by_y), slope.at(to.plus(i, ROWS), SIDE + part))
+            by_y = to.times(to.get(powers), to.load(source.at(i, to.plus(part, 1))))
+            to.store(to.add(by_x, by_y), slope.at(to.plus(i, ROWS), to.plus(SIDE, part)))
+            to.put(to.add(to.get(powers), to.times(along, to.constant(float(LANES)))), powers)
         to.put(to.real(0.0), slope.at(to.plus(i, ROWS), to.plus(SIDE, to.minus(degree, i))))
 
 
