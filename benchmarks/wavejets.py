@@ -249,7 +249,7 @@ def speed(peer: Peer, program: Path, queries: int) -> None:
             text = as_text(points, np.arange(queries), radius_for(neighbours, len(points)))
             orders = tuple(range(2, degree + 1))
             mine, theirs = alternate(
-                ours(points, normals, neighbours, degree, orders, queries=4000, uncertainty=False),
+                ours(points, normals, neighbours, degree, orders, uncertainty=False),
                 lambda degree=degree, text=text: run(program, degree, text)[0] / queries,
             )
             row = {"ours us": 1e6 * statistics.median(mine)}
