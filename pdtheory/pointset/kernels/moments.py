@@ -150,9 +150,11 @@ def _fill_powers(
         for row in range(WIDE):
             to.store(even, columns.at(row, i))
             even, odd = odd, to.times(even, square)
-        last = to.times(square, square)
-        if WIDE == 9:
-            last = to.times(to.times(last, last), y)
+        last = y
+        for digit in f"{WIDE:b}"[1:]:
+            last = to.times(last, last)
+            if digit == "1":
+                last = to.times(last, y)
         to.store(last, columns.at(WIDE, i))
 
 
