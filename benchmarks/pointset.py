@@ -253,7 +253,16 @@ def stages() -> None:
     """Print the median time of each stage of a fit, one thread, on one neighbourhood of a torus."""
     import numba
 
-    from pdtheory.pointset.kernels import cholesky, chunk, fit, grid, moments, regression, tilting
+    from pdtheory.pointset.kernels import (
+        cholesky,
+        chunk,
+        fit,
+        grid,
+        moments,
+        regression,
+        tilting,
+        weighing,
+    )
     from pdtheory.pointset.kernels.lanes import LANES
     from pdtheory.pointset.kernels.tables import WORKSPACE, make_cloud, make_record, make_tables
 
@@ -271,13 +280,13 @@ def stages() -> None:
                 runs, _ = grid.find_runs(cells, here[0], here[1], here[2], w.runs)
                 grid.gather(cells.columns, w.runs, runs, query, 1.0, radius, cloud)
                 for i in range(points, n):
-                    cloud[moments.SQUARED, i] = fit.OUTSIDE
+                    cloud[moments.SQUARED, i] = weighing.OUTSIDE
             elif number == 1:
-                fit.weigh(cloud, n)
+                weighing.weigh(cloud, n)
             elif number == 2:
                 fit.choose_frame(cloud, n, normal, settings, w)
             elif number == 3:
-                fit.project(cloud, points, n, False, w)
+                weighing.project(cloud, points, n, False, w)
             elif number == 4:
                 moments.sum_moments(
                     cloud, moments.WEIGHT, n, degree, w.cubes, w.columns, w.sums, w.heights

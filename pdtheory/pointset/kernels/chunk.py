@@ -8,7 +8,7 @@ import numpy as np
 
 from pdtheory.conventions import Status
 from pdtheory.pointset.kernels import results
-from pdtheory.pointset.kernels.fit import FRAME_TANGENT, OUTSIDE, Fit, Settings, finish, fit_point
+from pdtheory.pointset.kernels.fit import FRAME_TANGENT, Fit, Settings, finish, fit_point
 from pdtheory.pointset.kernels.frames import output_frame
 from pdtheory.pointset.kernels.grid import Grid, find_runs, gather, gather_listed, locate
 from pdtheory.pointset.kernels.jit import Array, IntArray, inner, kernel
@@ -23,6 +23,7 @@ from pdtheory.pointset.kernels.uncertainty import (
     prepare_covariances,
     spread_order,
 )
+from pdtheory.pointset.kernels.weighing import OUTSIDE
 
 _UNANSWERED = int(Status.TOO_FEW_NEIGHBOURS | Status.DEGENERATE_FRAME)
 _NON_FINITE = int(Status.NON_FINITE)

@@ -9,6 +9,7 @@ import numpy as np
 from pdtheory.pointset.kernels import results
 from pdtheory.pointset.kernels.jit import Array, IntArray, inner, kernel
 from pdtheory.pointset.kernels.lanes import LANES
+from pdtheory.pointset.kernels.polishing import polish
 from pdtheory.pointset.kernels.results import Found, Traces
 from pdtheory.pointset.kernels.roots import (
     ANGLE,
@@ -19,7 +20,6 @@ from pdtheory.pointset.kernels.roots import (
     SINE,
     VALUE,
     bracket_angles,
-    polish,
 )
 from pdtheory.pointset.kernels.tables import SAMPLES, SIDE, layout
 

@@ -9,8 +9,7 @@ import numpy as np
 from pdtheory.conventions import Status
 from pdtheory.pointset.kernels.frames import face, principal_frame, tilt
 from pdtheory.pointset.kernels.jit import Array, inner
-from pdtheory.pointset.kernels.lanes import LANES, Lanes, Rows, emit
-from pdtheory.pointset.kernels.moments import DX, DY, DZ, SQUARED, WEIGHT, X, Y, Z
+from pdtheory.pointset.kernels.moments import WEIGHT
 from pdtheory.pointset.kernels.regression import (
     degree_start,
     doubtful,
@@ -18,6 +17,7 @@ from pdtheory.pointset.kernels.regression import (
     settle,
 )
 from pdtheory.pointset.kernels.tilting import gradient, shift, tilt_matters, untilt
+from pdtheory.pointset.kernels.weighing import project, weigh
 
 #: Frames: tangent to the fitted surface, principal axes, normal to the given vectors.
 FRAME_TANGENT, FRAME_PRINCIPAL, FRAME_GIVEN = 0, 1, 2
@@ -29,8 +29,6 @@ MARGIN = 1.25
 RETILTS = 8
 #: With l1 the residual may be that of outliers, so a tenth of it decides about another tilt.
 TRUST_L1 = 0.1
-#: Squared distance, in units of the radius, of what fills up a vector.
-OUTSIDE = 2.0
 #: Distance of the weighted centroid, as a fraction of the radius, of a one-sided neighbourhood.
 ONE_SIDED = 0.18
 
@@ -97,94 +95,6 @@ class Fit(NamedTuple):
     residual: float
     pivot: float
     neighbours: int
-
-
-@emit
-def weigh(to: Lanes, cloud: Rows, n: Any) -> float:
-    """Write exp(-9 rho^2 / 2) for squared distances rho^2 <= 1, and 0 beyond; count the former.
-
-    The exponential is the 64th power of its Taylor polynomial at 1/64 of the argument, where eight
-    terms reach rounding.
-    """
-    zero, one = to.constant(0.0), to.constant(1.0)
-    inside = to.variable(zero)
-    with to.count(0, n, LANES) as i:
-        squared = to.load(cloud.at(SQUARED, i))
-        t = to.times(squared, to.constant(-4.5 / 64.0))
-        value = one
-        for k in range(8, 0, -1):
-            value = to.add(to.times(to.times(t, to.constant(1.0 / k)), value), one)
-        for _ in range(6):
-            value = to.times(value, value)
-        near = to.builder.fcmp_ordered("<=", squared, one)
-        to.store(to.builder.select(near, value, zero), cloud.at(WEIGHT, i))
-        to.put(to.add(to.get(inside), to.builder.select(near, one, zero)), inside)
-    return to.lane(to.sums([to.get(inside)] * LANES), 0)
-
-
-@emit
-def _square_in_plane(to: Lanes, cloud: Rows, n: Any, frame: Rows) -> None:
-    """Replace the squared distances by those in the plane of the frame."""
-    axes = [[to.spread(to.get(frame.at(r, k))) for k in range(3)] for r in range(2)]
-    with to.count(0, n, LANES) as i:
-        p = [to.load(cloud.at(row, i)) for row in (DX, DY, DZ)]
-        x, y = (_dot(to, p, axis) for axis in axes)
-        to.store(to.add(to.times(x, x), to.times(y, y)), cloud.at(SQUARED, i))
-
-
-@emit
-def _turn_into(to: Lanes, cloud: Rows, n: Any, frame: Rows, sums: Rows) -> None:
-    """Write the coordinates in the frame; sum w, w x and w y."""
-    axes = [[to.spread(to.get(frame.at(r, k))) for k in range(3)] for r in range(3)]
-    totals = [to.variable(to.constant(0.0)) for _ in range(3)]
-    with to.count(0, n, LANES) as i:
-        p = [to.load(cloud.at(row, i)) for row in (DX, DY, DZ)]
-        local = [_dot(to, p, axis) for axis in axes]
-        for value, row in zip(local, (X, Y, Z), strict=True):
-            to.store(value, cloud.at(row, i))
-        w = to.load(cloud.at(WEIGHT, i))
-        for total, value in zip(totals, (to.constant(1.0), *local[:2]), strict=True):
-            to.put(to.add(to.times(w, value), to.get(total)), total)
-    rest = [to.constant(0.0)] * (LANES - 3)
-    to.store(to.sums([*map(to.get, totals), *rest]), sums.at(0))
-
-
-@emit
-def _centre(to: Lanes, cloud: Rows, n: Any, cx: Any, cy: Any) -> None:
-    """Subtract the centre from x and y."""
-    with to.count(0, n, LANES) as i:
-        for row, c in ((X, cx), (Y, cy)):
-            at = cloud.at(row, i)
-            to.store(to.subtract(to.load(at), to.spread(c)), at)
-
-
-def _dot(to: Lanes, p: list[Any], axis: list[Any]) -> Any:
-    total = to.times(p[0], axis[0])
-    for a, b in zip(p[1:], axis[1:], strict=True):
-        total = to.add(to.times(a, b), total)
-    return total
-
-
-@inner
-def project(cloud: Array, points: int, n: int, planar: bool, w: Any) -> tuple[float, float, float]:
-    """Write local coordinates, x and y centred on their weighted mean, and the weights if planar.
-
-    Returns
-    -------
-    (float, float, float)
-        The mean (cx, cy) and the sum of the weights.
-    """
-    if planar:
-        _square_in_plane(cloud, n, w.frame)
-        for i in range(points, n):
-            cloud[SQUARED, i] = OUTSIDE
-        weigh(cloud, n)
-    _turn_into(cloud, n, w.frame, w.spread)
-    total = w.spread[0]
-    cx = w.spread[1] / total
-    cy = w.spread[2] / total
-    _centre(cloud, n, cx, cy)
-    return cx, cy, total
 
 
 @inner
