@@ -34,7 +34,7 @@ from pathlib import Path
 
 import numpy as np
 import sympy as sp
-from pointset import build_cgal, cgal_input, run_cgal, torus_mesh
+from pointset import build_cgal, cgal_input, check_peers, run_cgal, torus_mesh
 
 from pdtheory.pointset import estimate_directions
 
@@ -383,6 +383,8 @@ def main() -> None:
     parser.add_argument("--python", help="a Python with libigl and pymeshlab")
     options = parser.parse_args()
     wanted = options.tables or names
+    if "peers" in wanted and options.python:
+        check_peers(options.python, "igl", "pymeshlab")
     rng = np.random.default_rng(1)
     shapes = {name: Implicit(expression) for name, expression in SHAPES.items()}
     clean = {name: shape.sample(COUNT, rng) for name, shape in shapes.items()}

@@ -18,7 +18,7 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
-from pointset import median_time
+from pointset import check_peers, median_time
 from scipy.spatial import cKDTree
 
 import synthetic_surfaces
@@ -60,6 +60,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--peers", required=True, help="a Python with PyMeshLab")
     peer = parser.parse_args().peers
+    check_peers(peer, "pymeshlab")
     torus = synthetic_surfaces.get("torus", major=MAJOR, minor=MINOR).sample(COUNT, seed=1)
     heads = ("noise", "reach", "N", "tool", "us", "curvature", "degrees")
     print("{:>7} {:>6} {:>5} {:>18} {:>6} {:>11} {:>8}".format(*heads))

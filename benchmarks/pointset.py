@@ -54,6 +54,25 @@ def radius_for(neighbours: int, count: int) -> float:
     return float(np.sqrt(neighbours * 4 * np.pi**2 * 0.4 / count / np.pi))
 
 
+def refusal(sentence: str) -> SystemExit:
+    """What to raise to end with code 2, having said what is missing."""
+    print(sentence, file=sys.stderr)
+    return SystemExit(2)
+
+
+def check_peers(python: str, *modules: str) -> None:
+    """Refuse a Python that is not there or lacks a module."""
+    for module in modules:
+        try:
+            done = subprocess.run([python, "-c", f"import {module}"], capture_output=True)
+        except OSError as error:
+            raise refusal(
+                f"cannot run {python}: {error.strerror}; name a Python that has {module}."
+            ) from None
+        if done.returncode:
+            raise refusal(f"{python} cannot import {module}; name a Python that has it.")
+
+
 def once(action, clock=time.process_time) -> float:
     """Seconds that one call takes."""
     start = clock()
@@ -343,6 +362,8 @@ def main() -> None:
     if options.stages:
         stages()
         return
+    if options.peers:
+        check_peers(options.peers, "igl")
     points, normals = torus_points(20_000)
     program = build_cgal(options.build)
     plain = {"uncertainty": False}

@@ -41,11 +41,10 @@ import sys
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
-from typing import NoReturn
 
 import numpy as np
 from accuracy import exact_angles
-from pointset import alternate, ours, radius_for, show, spread_of_ratio, torus_points
+from pointset import alternate, ours, radius_for, refusal, show, spread_of_ratio, torus_points
 from scipy.spatial import cKDTree
 from scipy.stats import special_ortho_group
 
@@ -109,28 +108,24 @@ def every(order: int) -> np.ndarray:
     return np.arange(-order, order + 1, 2)
 
 
-def refuse(sentence: str) -> NoReturn:
-    """Say what is missing, and end with code 2."""
-    print(sentence, file=sys.stderr)
-    raise SystemExit(2)
-
-
 def find_peer(folder: Path) -> Peer:
     """The project that a folder is a checkout of."""
     for peer in PEERS:
         if all((folder / source).is_file() for source in peer.sources):
             return peer
     needs = " or of ".join(f"{peer.name} (with {peer.sources[0]})" for peer in PEERS)
-    refuse(f"{folder} is not a checkout of {needs}; give the folder of one.")
+    raise refusal(f"{folder} is not a checkout of {needs}; give the folder of one.")
 
 
 def build(peer: Peer, checkout: Path, eigen: Path, folder: Path) -> Path:
     """Compile a driver with the sources of a checkout."""
     compiler = shutil.which("g++")
     if compiler is None:
-        refuse("g++ is not installed; it compiles the other codes.")
+        raise refusal("g++ is not installed; it compiles the other codes.")
     if not (eigen / "Eigen" / "Dense").is_file():
-        refuse(f"{eigen} holds no Eigen/Dense; install Eigen or give its folder with --eigen.")
+        raise refusal(
+            f"{eigen} holds no Eigen/Dense; install Eigen or give its folder with --eigen."
+        )
     folder.mkdir(parents=True, exist_ok=True)
     program = folder / Path(peer.driver).stem
     command = [compiler, "-std=c++17", "-O3", "-march=native", "-DNDEBUG", "-w", f"-I{eigen}"]
@@ -143,7 +138,7 @@ def build(peer: Peer, checkout: Path, eigen: Path, folder: Path) -> Path:
         wrong = [
             line for line in done.stderr.splitlines() if "error" in line or "undefined" in line
         ]
-        refuse(f"{checkout} does not compile: {(wrong or ['no reason given'])[0]}")
+        raise refusal(f"{checkout} does not compile: {(wrong or ['no reason given'])[0]}")
     return program
 
 
@@ -360,7 +355,9 @@ def main() -> None:
     wanted = options.tables or ["speed", "accuracy"]
     for name in wanted:
         if name not in ("speed", "accuracy"):
-            refuse(f"there is no table {name!r}; name speed or accuracy, or neither for both.")
+            raise refusal(
+                f"there is no table {name!r}; name speed or accuracy, or neither for both."
+            )
     found = [(find_peer(folder), folder) for folder in options.sources]
     unsound = False
     for peer, folder in found:
