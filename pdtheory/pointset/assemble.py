@@ -58,12 +58,13 @@ class Collector:
         self._table = np.array(wavejets_table(degree), dtype=np.int64)
         self._found = engine.make_found(len(points))
         self._store = _Store()
-        self._chunks: list[tuple[IntArray, FloatArray]] = []
+        self._chunks: list[tuple[IntArray, list[FloatArray]]] = []
 
     def compute(self, where: IntArray, flag: Flag, slots: IntArray) -> None:
         """Compute the queries `where`, which are the points `slots`; several threads may do so."""
-        rows = self._engine.work(where, flag, slots, self._found)
-        self._chunks.append((slots, self._store.keep(rows)))
+        rows = self._store.keep(self._engine.work(where, flag, slots, self._found))
+        ends = np.cumsum(np.maximum(self._found.counts[:, slots], 0).sum(axis=1))
+        self._chunks.append((slots, np.split(rows, ends[:-1])))
 
     def field(self, threads: int = 1) -> DirectionField:
         """Return everything that was added as one field.
@@ -93,21 +94,20 @@ class Collector:
 
     def _directions(self, j: int) -> OrderDirections:
         """Return the directions of one order."""
-        counts = self._found.lengths
+        counts = self._found.counts[j]
         order = int(self._engine.orders[j])
-        offsets = np.concatenate(([0], np.cumsum(2 * counts[j])))
+        offsets = np.concatenate(([0], np.cumsum(2 * np.maximum(counts, 0))))
         total = int(offsets[-1])
         numbers = np.empty((results.VECTOR, total))
         vectors, kinds = np.empty((total, 3)), np.empty(total, np.int8)
         for slots, rows in self._chunks:
-            start = int(counts[:j, slots].sum())
-            place(rows[start:], order % 2 == 1, slots, offsets, numbers, vectors, kinds)
+            place(rows[j], order % 2 == 1, slots, offsets, numbers, vectors, kinds)
         return OrderDirections(
             order=order,
             offsets=offsets,
             vector=vectors,
             kind=kinds,
-            isotropic=self._found.counts[j] < 0,
+            isotropic=counts < 0,
             angle=numbers[results.ANGLE],
             eigenvalue=numbers[results.EIGENVALUE],
             strength=numbers[results.STRENGTH],

@@ -5,14 +5,12 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
-from typing import TypeVar
 
 import numpy as np
 import numpy.typing as npt
 
 from pdtheory.errors import InputError
 
-T = TypeVar("T")
 Progress = Callable[[float, str], None]
 Flag = npt.NDArray[np.uint8]
 
@@ -38,13 +36,13 @@ def spans(first: int, last: int, size: int) -> list[tuple[int, int]]:
 
 
 def run_spans(
-    work: Callable[[int, int, Flag], T],
+    work: Callable[[int, int, Flag], None],
     chunks: Sequence[tuple[int, int]],
     threads: int,
     progress: Progress | None,
     text: str,
-) -> Iterator[tuple[int, int, T]]:
-    """Yield (start, stop, work(start, stop, flag)) for chunks as they finish.
+) -> Iterator[tuple[int, int]]:
+    """Call work(start, stop, flag) for all chunks; yield (start, stop) of each as it finishes.
 
     At most three chunks for each thread are under way or waiting to be taken. If the consumer
     stops, the callback raises, or Ctrl-C is pressed, `flag[0]` becomes 1; the work must look at it
@@ -66,7 +64,7 @@ def run_spans(
     flag: Flag = np.zeros(1, np.uint8)
     total = sum(stop - start for start, stop in chunks)
     waiting = iter(chunks)
-    pending: dict[Future[T], tuple[int, int]] = {}
+    pending: dict[Future[None], tuple[int, int]] = {}
     done = 0
     pool = ThreadPoolExecutor(threads, thread_name_prefix="pdtheory")
     try:
@@ -79,7 +77,8 @@ def run_spans(
             for future in finished:
                 start, stop = pending.pop(future)
                 done += stop - start
-                yield start, stop, future.result()
+                future.result()
+                yield start, stop
             if progress is not None:
                 progress(done / total, text)
     finally:

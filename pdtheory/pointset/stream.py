@@ -122,7 +122,7 @@ def _computed(
         open_parts[number].compute(engine.visit[start:stop], flag, slots)
 
     for span in run_spans(work, list(owner), run.threads, report, "estimating directions"):
-        number = owner[span[:2]]
+        number = owner[span]
         left[number] -= 1
         if not left[number]:
             yield number, engine.visit[slice(*blocks[number])], open_parts.pop(number)

@@ -25,6 +25,8 @@ SIDE = 16
 REACH = 2
 #: Columns of cells that a ball can touch.
 COLUMNS = (2 * REACH + 1) ** 2
+#: Rows of a product of polynomials that are computed together.
+ROWS = 4
 #: Largest degree, for which all memory is laid out.
 MAX_DEGREE = 14
 _COUNT = (MAX_DEGREE + 1) * (MAX_DEGREE + 2) // 2
@@ -105,7 +107,7 @@ WORKSPACE = layout(
     horner=(_COLUMNS,),
     table=(SIDE + 1, SIDE + LANES),
     middle=(SIDE + 1, SIDE + LANES),
-    slope=(SIDE + 8, 2 * SIDE),
+    slope=(SIDE + 2 * ROWS, 2 * SIDE),
     norms=(SIDE,),
     frame=(3, 3),
     A=(3, 3),

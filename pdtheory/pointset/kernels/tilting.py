@@ -10,10 +10,8 @@ from pdtheory.pointset.kernels.frames import tilt
 from pdtheory.pointset.kernels.jit import Array, inner
 from pdtheory.pointset.kernels.lanes import LANES, Lanes, Rows, emit
 from pdtheory.pointset.kernels.regression import degree_start
-from pdtheory.pointset.kernels.tables import SIDE
+from pdtheory.pointset.kernels.tables import ROWS, SIDE
 
-#: Rows of a product of polynomials that are computed together.
-ROWS = 4
 #: Effect of a remaining tilt that is tolerated, as a fraction of the residual and of the height.
 TILT_OF_RESIDUAL, TILT_OF_HEIGHT = 0.3, 1e-13
 

@@ -26,8 +26,8 @@ from pdtheory.pointset.kernels.moments import (
     sum_products,
 )
 from pdtheory.pointset.kernels.regression import degree_start
-from pdtheory.pointset.kernels.tables import SIDE
-from pdtheory.pointset.kernels.tilting import ROWS, add_product, spread_out
+from pdtheory.pointset.kernels.tables import ROWS, SIDE
+from pdtheory.pointset.kernels.tilting import add_product, spread_out
 
 #: Halvings of an interval after which a number in it is known to rounding, if it is not 1e-4 of it.
 _HALVINGS = 64
