@@ -102,13 +102,16 @@ def _sum(
                     cube = to.builder.select(second, targets[1][2], cube)
                 left = to.minus(last, b)
                 first = cube
-                for width, narrower in zip(WIDTHS, (*WIDTHS[1:], 0), strict=True):
-                    # The power a has left - a + 1 partners: tiles with more than the next width.
+                # The power a has left - a + 1 partners, one less in each row of a tile. Those with
+                # more than WIDE take what is kept; the others belong to the next width.
+                shapes = [[WIDE] * TALL]
+                shapes += [[max(width - row, 0) for row in range(TALL)] for width in WIDTHS]
+                for widths, narrower in zip(shapes, (*WIDTHS, 0), strict=True):
                     tiles = to.div(to.greatest(to.plus(left, TALL - narrower), 0), TALL)
                     end = to.plus(cube, tiles)
                     with to.count(first, end) as tile:
                         a = to.mul(to.minus(tile, cube), TALL)
-                        _tile(to, cloud, start, stop, cubes, columns, tile, width, out, a, b)
+                        _tile(to, cloud, start, stop, cubes, columns, tile, widths, out, a, b)
                     first = end
             left = to.minus(top, b)
             with to.builder.if_then(to.builder.icmp_signed(">=", left, to.integer(WIDE))):
@@ -175,24 +178,25 @@ def _tile(
     cubes: Rows,
     columns: Rows,
     tile: Any,
-    width: int,
+    widths: list[int],
     out: Rows,
     a: Any,
     b: Any,
 ) -> None:
-    """Add the dot products of TALL powers of x with `width` columns to the sums from (a, b) on."""
-    sums = [[to.variable(to.constant(0.0)) for _ in range(width)] for _ in range(TALL)]
+    """Add the dot products of the powers of x with so many columns to the sums from (a, b) on."""
+    sums = [[to.variable(to.constant(0.0)) for _ in range(width)] for width in widths]
     with to.count(0, stop, LANES) as i:
         x = to.load(cloud.at(X, to.plus(start, i)))
         powers = [to.load(cubes.at(tile, i))]
         while len(powers) < TALL:
             powers.append(to.times(powers[-1], x))
-        for column in range(width):
+        for column in range(widths[0]):
             value = to.load(columns.at(column, i))
             for power, row in zip(powers, sums, strict=True):
-                to.put(to.add(to.times(power, value), to.get(row[column])), row[column])
+                if column < len(row):
+                    to.put(to.add(to.times(power, value), to.get(row[column])), row[column])
     for offset, row in enumerate(sums):
-        for column in range(0, width, LANES):
+        for column in range(0, len(row), LANES):
             part = [to.get(total) for total in row[column : column + LANES]]
             part += [to.constant(0.0)] * (LANES - len(part))
             at = out.at(to.plus(a, offset), to.plus(b, column))

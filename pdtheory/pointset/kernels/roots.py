@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from pdtheory.pointset.kernels.jit import Array, IntArray, inner
+from pdtheory.pointset.kernels.jit import Array, inner
 from pdtheory.pointset.kernels.lanes import LANES, Lanes, Rows, emit
 from pdtheory.pointset.kernels.tables import SAMPLES
 
@@ -73,6 +73,33 @@ def _sample(
             to.store(to.get(d[v]), samples.at(1, at[v]))
 
 
+@emit
+def _find_candidates(to: Lanes, samples: Rows, clear: Any, intervals: Rows) -> float:
+    """Write the numbers of the intervals before the last one that may hold zeros; count them.
+
+    Such an interval ends between values of different signs, or with one not larger than `clear`.
+    """
+    build = to.builder
+    zero, limit = to.constant(0.0), to.spread(clear)
+    lowest = to.subtract(zero, limit)
+    place = to.variable(to.integer(0))
+    with to.count(0, SAMPLES, LANES) as i:
+        ends = [to.load(samples.at(0, i)), to.load(samples.at(0, to.plus(i, 1)))]
+        negative = [build.fcmp_ordered("<", value, zero) for value in ends]
+        small = [
+            build.and_(
+                build.fcmp_ordered("<=", lowest, value), build.fcmp_ordered("<=", value, limit)
+            )
+            for value in ends
+        ]
+        doubtful = build.or_(build.xor(*negative), build.or_(*small))
+        doubtful = build.and_(doubtful, to.below(to.minus(SAMPLES - 1, i)))
+        numbers = to.add(to.sequence(1), to.spread(build.sitofp(i, to.real(0.0).type)))
+        to.pack([numbers], doubtful, [intervals.at(to.get(place))])
+        to.put(to.plus(to.get(place), to.number(doubtful)), place)
+    return build.sitofp(to.get(place), to.real(0.0).type)
+
+
 @inner
 def _note(
     re: Array,
@@ -111,7 +138,7 @@ def bracket_angles(
     cosines: Array,
     sines: Array,
     samples: Array,
-    intervals: IntArray,
+    intervals: Array,
     stack: Array,
     table: Array,
     kind: Array,
@@ -130,7 +157,7 @@ def bracket_angles(
         cos(n theta_j) and sin(n theta_j) at theta_j = j pi / SAMPLES.
     samples : (2, SAMPLES + 1) float64
         Scratch for h and h'.
-    intervals : (SAMPLES,) int64
+    intervals : (>= SAMPLES + LANES,) float64
         Scratch for the intervals that may hold zeros.
     stack : (DEPTH + 3, 6) float64
         Scratch for the halvings.
@@ -164,16 +191,10 @@ def bracket_angles(
     # h(theta + pi) = (-1)^k h(theta), to the bit, so that a zero at 0 is found once.
     samples[0, SAMPLES] = -samples[0, 0] if parity else samples[0, 0]
     samples[1, SAMPLES] = -samples[1, 0] if parity else samples[1, 0]
-    count = 0
-    for sample in range(1, SAMPLES):
-        ha = samples[0, sample - 1]
-        hb = samples[0, sample]
-        # Counting with a truth value is faster than jumping, which is often foreseen wrongly.
-        intervals[count] = sample
-        count += int(((ha < 0.0) != (hb < 0.0)) | (min(abs(ha), abs(hb)) <= clear))
+    count = int(_find_candidates(samples, clear, intervals))
     intervals[count] = SAMPLES
     for i in range(count + 1):
-        sample = intervals[i]
+        sample = int(intervals[i])
         ha = samples[0, sample - 1]
         hb = samples[0, sample]
         da = samples[1, sample - 1]

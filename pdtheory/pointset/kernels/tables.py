@@ -35,7 +35,7 @@ _LINE = 64  # bytes of a cache line, where vectors begin best
 #: Cache lines by which each row of a cloud is set off against the one before: with a power of two
 #: between them all rows would want the same places of the cache.
 _STAGGER = 5
-_INTEGERS = ("intervals", "runs", "cells")  # the arrays of integers among those of numbers
+_INTEGERS = ("runs", "cells")  # the arrays of integers among those of numbers
 
 
 def layout(**shapes: tuple[int, ...]) -> np.dtype[Any]:
