@@ -17,27 +17,6 @@ from pdtheory.pointset.kernels.results import COLUMNS, place
 from pdtheory.pointset.pool import Flag
 from pdtheory.pointset.selection import Selector
 
-#: Rows in a block of memory. Where the system has large pages it takes them for so large a block,
-#: which cost far less to touch first.
-BLOCK = 2**17
-
-
-class _Store:
-    """Keeps copies of rows; several threads may use it."""
-
-    def __init__(self) -> None:
-        self._lock = threading.Lock()
-        self._free = np.empty((0, COLUMNS))
-
-    def keep(self, rows: FloatArray) -> FloatArray:
-        """Return a copy."""
-        with self._lock:
-            if len(self._free) < len(rows):
-                self._free = np.empty((max(BLOCK, len(rows)), COLUMNS))
-            copy, self._free = self._free[: len(rows)], self._free[len(rows) :]
-        copy[:] = rows
-        return copy
-
 
 class Collector:
     """Takes the results of chunks in any order and makes a :class:`DirectionField` of them.
@@ -57,14 +36,24 @@ class Collector:
         self._points = points
         self._table = np.array(wavejets_table(degree), dtype=np.int64)
         self._found = engine.make_found(len(points))
-        self._store = _Store()
-        self._chunks: list[tuple[IntArray, list[FloatArray]]] = []
+        # As large as they can get; the system gives only what is written to.
+        self._rows = [np.empty((len(points) * int(k), COLUMNS)) for k in engine.orders]
+        self._used = np.zeros(len(engine.orders), np.int64)
+        self._slots: list[IntArray] = []
+        self._lock = threading.Lock()
 
     def compute(self, where: IntArray, flag: Flag, slots: IntArray) -> None:
         """Compute the queries `where`, which are the points `slots`; several threads may do so."""
-        rows = self._store.keep(self._engine.work(where, flag, slots, self._found))
-        ends = np.cumsum(np.maximum(self._found.counts[:, slots], 0).sum(axis=1))
-        self._chunks.append((slots, np.split(rows, ends[:-1])))
+        rows = self._engine.work(where, flag, slots, self._found)
+        lengths = np.maximum(self._found.counts[:, slots], 0).sum(axis=1)
+        with self._lock:
+            starts = self._used.copy()
+            self._used += lengths
+            self._slots.append(slots)
+        first = 0
+        for kept, start, length in zip(self._rows, starts, lengths, strict=True):
+            kept[start : start + length] = rows[first : first + length]
+            first += length
 
     def field(self, threads: int = 1) -> DirectionField:
         """Return everything that was added as one field.
@@ -96,12 +85,15 @@ class Collector:
         """Return the directions of one order."""
         counts = self._found.counts[j]
         order = int(self._engine.orders[j])
-        offsets = np.concatenate(([0], np.cumsum(2 * np.maximum(counts, 0))))
+        lengths = np.maximum(counts, 0)
+        offsets = np.concatenate(([0], np.cumsum(2 * lengths)))
+        slots = np.concatenate([np.empty(0, np.int64), *self._slots])
+        firsts = np.zeros_like(counts)
+        firsts[slots] = np.cumsum(lengths[slots]) - lengths[slots]
         total = int(offsets[-1])
         numbers = np.empty((results.VECTOR, total))
         vectors, kinds = np.empty((total, 3)), np.empty(total, np.int8)
-        for slots, rows in self._chunks:
-            place(rows[j], order % 2 == 1, slots, offsets, numbers, vectors, kinds)
+        place(self._rows[j], order % 2 == 1, firsts, offsets, numbers, vectors, kinds)
         return OrderDirections(
             order=order,
             offsets=offsets,

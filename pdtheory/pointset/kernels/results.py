@@ -86,7 +86,7 @@ VECTOR, KIND, COLUMNS = 5, 8, 9
 def place(
     rows: Array,
     odd: bool,
-    slots: IntArray,
+    firsts: IntArray,
     offsets: IntArray,
     numbers: Array,
     vectors: Array,
@@ -97,11 +97,11 @@ def place(
     Parameters
     ----------
     rows : (>= sum of counts, COLUMNS) float64
-        Directions of one order at the points of a chunk.
+        Directions of one order at Q points; those of a point follow one another.
     odd : bool
         Whether the order is odd, so that opposite directions have opposite eigenvalues.
-    slots : (C,) int64
-        These points.
+    firsts : (Q,) int64
+        Which row is the first of each point.
     offsets : (Q + 1,) int64
         The directions of point q are the entries offsets[q]..offsets[q + 1] of what follows.
     numbers : (VECTOR, M) float64
@@ -111,14 +111,13 @@ def place(
     kinds : (M,) int8
         Receives the kinds.
     """
-    first = 0
-    for slot in slots:
-        count = (offsets[slot + 1] - offsets[slot]) // 2
+    for q in range(len(firsts)):
+        count = (offsets[q + 1] - offsets[q]) // 2
         for half in range(2):
             way = 1.0 - 2.0 * half
             sign = way if odd else 1.0
-            to = offsets[slot] + half * count
-            for row in range(first, first + count):
+            to = offsets[q] + half * count
+            for row in range(firsts[q], firsts[q] + count):
                 for column in range(VECTOR):
                     numbers[column, to] = rows[row, column]
                 numbers[ANGLE, to] += half * np.pi
@@ -127,4 +126,3 @@ def place(
                     vectors[to, axis] = way * rows[row, VECTOR + axis]
                 kinds[to] = np.int8(sign * rows[row, KIND])
                 to += 1
-        first += count
