@@ -21,6 +21,7 @@ from pdtheory.pointset.kernels.results import (
     COLUMNS,
     NEIGHBOURS,
     RADIUS,
+    SPARE,
     Found,
     Traces,
     make_found,
@@ -171,7 +172,7 @@ class Engine:
         traces = Traces(
             memory.array("turn", size, 2),
             memory.array("blur", size, len(self.orders)),
-            memory.array("covariance", size, entries),
+            memory.array("covariance", size, entries + SPARE if entries else 0),
         )
         tables = make_tables()
         begin = 0

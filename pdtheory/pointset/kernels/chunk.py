@@ -134,9 +134,9 @@ def _write_covariances(
 ) -> float:
     """Write the covariances of all orders up to the degree used; returns the noise."""
     tangent = settings.frame == FRAME_TANGENT
-    noise = prepare_covariances(cloud, n, fit, robust, tangent, w)
+    noise = prepare_covariances(cloud, n, fit, robust, tangent, tables, w)
     if tangent:
-        spread_order(1, fit, tables, w)
+        spread_order(1, fit, w)
         for axis in range(2):
             for i in range(degree_start(fit.top, 0) + 1):
                 w.gradient[axis, i] = w.U[1 + axis, i]
@@ -144,11 +144,8 @@ def _write_covariances(
     for order in orders:
         if order > fit.degree:
             break
-        order_covariance(order, fit, tangent, tables, w)
-        for b1 in range(order + 1):
-            for b2 in range(order + 1):
-                out[entry] = noise * noise * w.C[b1, b2]
-                entry += 1
+        order_covariance(order, fit, tangent, noise, w, out, entry)
+        entry += (order + 1) ** 2
     return noise
 
 

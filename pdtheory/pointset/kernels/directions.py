@@ -8,7 +8,7 @@ import numpy as np
 
 from pdtheory.pointset.kernels import results
 from pdtheory.pointset.kernels.jit import Array, IntArray, inner, kernel
-from pdtheory.pointset.kernels.lanes import LANES
+from pdtheory.pointset.kernels.lanes import LANES, Lanes, Rows, emit
 from pdtheory.pointset.kernels.polishing import polish
 from pdtheory.pointset.kernels.results import Found, Traces
 from pdtheory.pointset.kernels.roots import (
@@ -44,6 +44,24 @@ BENCH = layout(
 )
 
 
+@emit
+def _square_form(to: Lanes, matrix: Rows, start: Any, count: Any, v: Rows) -> float:
+    """Return v^T M v for the square matrix M whose rows follow one another from `start` on."""
+    total = to.variable(to.constant(0.0))
+    zero = to.constant(0.0)
+    with to.count(0, count, LANES) as part:
+        line = to.variable(zero)
+        with to.count(0, count) as i:
+            at = to.plus(start, to.mul(i, count), part)
+            term = to.times(to.spread(to.get(v.at(i))), to.load(matrix.at(at)))
+            to.put(to.add(term, to.get(line)), line)
+        # Behind the end of the rows there may be anything.
+        there = to.below(to.minus(count, part))
+        term = to.times(to.builder.select(there, to.get(line), zero), to.load(v.at(part)))
+        to.put(to.add(term, to.get(total)), total)
+    return to.lane(to.sums([to.get(total)] * LANES), 0)
+
+
 @inner
 def _deviations(
     covariance: Array, entry: int, order: int, c: float, s: float, bench: Any
@@ -65,17 +83,8 @@ def _deviations(
         if b > 0:
             slope += b * bench.powers[b - 1]
         bench.slopes[b] = slope
-    of_slope = 0.0
-    of_value = 0.0
-    for b1 in range(order + 1):
-        slope = 0.0
-        value = 0.0
-        for b2 in range(order + 1):
-            slope += covariance[entry] * bench.slopes[b2]
-            value += covariance[entry] * bench.powers[b2]
-            entry += 1
-        of_slope += slope * bench.slopes[b1]
-        of_value += value * bench.powers[b1]
+    of_slope = _square_form(covariance, entry, order + 1, bench.slopes)
+    of_value = _square_form(covariance, entry, order + 1, bench.powers)
     return np.sqrt(max(of_slope, 0.0)), np.sqrt(max(of_value, 0.0))
 
 

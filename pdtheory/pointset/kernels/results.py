@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from pdtheory.pointset.kernels.jit import Array, IntArray, kernel
+from pdtheory.pointset.kernels.lanes import LANES
 
 #: Columns of the numbers of a point: the frame that is handed out, row by row; radius, degree used,
 #: points within the radius; root mean square of the residuals and standard deviation of the heights
@@ -57,6 +58,10 @@ def make_found(size: int, orders: int, columns: int) -> Found:
     )
 
 
+#: Numbers behind the covariances of a point that may be read and overwritten.
+SPARE = 2 * LANES
+
+
 class Traces(NamedTuple):
     """What the directions of Q points need to know of the fits beside their results.
 
@@ -66,9 +71,9 @@ class Traces(NamedTuple):
         Cosine and sine of the angle of t1 in the frame of the fit.
     blur : (Q, J) float64
         Size that rounding may give to the coefficients of an order, in units of the radius.
-    covariance : (Q, sum of (k + 1)^2) float64
-        For each order the covariance of c_{k-b,b} in the frame of the fit, in units of the radius;
-        no columns without error bars.
+    covariance : (Q, sum of (k + 1)^2 + SPARE) float64
+        For each order the covariance of c_{k-b,b} in the frame of the fit, in units of the radius,
+        row by row; no columns without error bars.
     """
 
     turn: Any

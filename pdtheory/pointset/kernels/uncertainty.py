@@ -93,6 +93,57 @@ def _solve_rows(
 
 
 @emit
+def _fill_shift(
+    to: Lanes, across: Rows, along: Rows, top: Any, used: Any, order: Any, out: Rows
+) -> None:
+    """Write what the coefficients of one order about the origin take of those about the centre.
+
+    Parameters
+    ----------
+    across, along
+        Powers of the centre with their binomial coefficients, from `_fill_powers`.
+    top, used : int
+        Degree that the coefficients are laid out for, and the largest that is not zero.
+    order : int
+        The order k.
+    out : (> k + 1, columns) float64
+        Row 1 + b receives the weights of the coefficient of x^(k-b) y^b; those behind the order are
+        zero, up to a whole vector.
+    """
+    after = to.mul(to.plus(used, 1), to.plus(used, 2))
+    first = to.plus(to.div(to.minus(to.mul(to.plus(top, 1), to.plus(top, 2)), after), 2), 1)
+    with to.count(0, to.plus(order, 1)) as b:
+        row = to.plus(b, 1)
+        a = to.minus(order, b)
+        with to.count(0, first, LANES) as i:
+            to.store(to.constant(0.0), out.at(row, i))
+        place = to.variable(first)
+        with to.count(0, to.plus(to.minus(used, order), 1)) as lower:
+            d = to.minus(used, lower)
+            # What goes beyond the degree is written over by the next one.
+            with to.count(0, to.plus(d, 1), LANES) as j:
+                by_x = to.load(across.at(a, to.plus(to.minus(SIDE - 1, d), j)))
+                weights = to.times(by_x, to.load(along.at(b, j)))
+                to.store(weights, out.at(row, to.plus(to.get(place), j)))
+            to.put(to.plus(to.get(place), d, 1), place)
+        to.store(to.constant(0.0), out.at(row, to.get(place)))
+
+
+@inner
+def _fill_powers(cx: float, cy: float, top: int, tables: Any, w: Any) -> None:
+    """Write binomial(i, a) (-cx)^(i-a) to across[a, SIDE - 1 - i], the same of cy to along[a, i]."""
+    power_x = 1.0
+    power_y = 1.0
+    for i in range(top + 1):
+        for a in range(top + 1 - i):
+            factor = tables.binomial[a + i, a]
+            w.across[a, SIDE - 1 - a - i] = factor * power_x
+            w.along[a, a + i] = factor * power_y
+        power_x *= -cx
+        power_y *= -cy
+
+
+@emit
 def _combine(to: Lanes, Y: Rows, count: Any, last: Any, X: Rows, n: Any, out: Rows) -> None:
     """Write sum_j Y[j, f] X[j, i], 1 <= j <= last, to out[f, i] for f in 1..count, i in 0..n.
 
@@ -113,10 +164,13 @@ def _combine(to: Lanes, Y: Rows, count: Any, last: Any, X: Rows, n: Any, out: Ro
 
 
 @emit
-def _inner_products(to: Lanes, U: Rows, count: Any, n: Any, out: Rows) -> None:
-    """Write the inner products of the rows 1..count of U to out[i - 1, j - 1].
+def _inner_products(
+    to: Lanes, U: Rows, count: Any, n: Any, scale: Any, out: Rows, start: Any
+) -> None:
+    """Write the inner products of the rows 1..count of U, times `scale`, row by row to `out`.
 
-    U has zeros in column 0, and behind column n to the end of the vector.
+    U has zeros in column 0, and behind column n to the end of the vector. What follows the
+    products, up to a whole vector, is overwritten.
     """
     with to.count(1, to.plus(count, 1)) as i, to.count(0, count, LANES) as first:
         sums = [to.variable(to.constant(0.0)) for _ in range(LANES)]
@@ -125,7 +179,9 @@ def _inner_products(to: Lanes, U: Rows, count: Any, n: Any, out: Rows) -> None:
             for j in range(LANES):
                 other = to.load(U.at(to.plus(first, 1 + j), k))
                 to.put(to.add(to.times(own, other), to.get(sums[j])), sums[j])
-        to.store(to.sums(list(map(to.get, sums))), out.at(to.minus(i, 1), first))
+        products = to.times(to.sums(list(map(to.get, sums))), to.spread(scale))
+        at = to.plus(start, to.mul(to.minus(i, 1), count), first)
+        to.store(products, out.at(at))
 
 
 @inner
@@ -163,7 +219,7 @@ def _noise_of_l1(cloud: Array, n: int, used: int) -> float:
 
 @inner
 def prepare_covariances(
-    cloud: Array, n: int, fit: Fit, robust: Any, tangent: bool, w: Any
+    cloud: Array, n: int, fit: Fit, robust: Any, tangent: bool, tables: Any, w: Any
 ) -> float:
     """Set up ``w.X`` and the gradient for `order_covariance`; returns the noise of the heights.
 
@@ -196,9 +252,7 @@ def prepare_covariances(
     for i in range(count + 1, rows + 1):
         w.S[i, i] = 0.0
     used = _solve_rows(w.S, count, PANEL, PANEL, w.G, w.inverses, w.X)
-    for i in range(top + 1):
-        w.powers[0, i] = 1.0 if i == 0 else -fit.cx * w.powers[0, i - 1]
-        w.powers[1, i] = 1.0 if i == 0 else -fit.cy * w.powers[1, i - 1]
+    _fill_powers(fit.cx, fit.cy, top, tables, w)
     if tangent:
         spread_out(w.c, top, w.table)
         for i in range(SIDE):
@@ -218,7 +272,7 @@ def prepare_covariances(
 
 
 @inner
-def spread_order(order: int, fit: Fit, tables: Any, w: Any) -> None:
+def spread_order(order: int, fit: Fit, w: Any) -> None:
     """Write X L^-T e to the rows of ``w.U`` for the coefficients x^(k-b) y^b about the origin.
 
     Their inner products are the covariances for unit noise.
@@ -226,28 +280,22 @@ def spread_order(order: int, fit: Fit, tables: Any, w: Any) -> None:
     top = fit.top
     end = degree_start(top, order) + order
     last = (end + PANEL - 1) // PANEL * PANEL
-    for b in range(order + 1):
-        a = order - b
-        for i in range(last + 1):
-            w.V[1 + b, i] = 0.0
-        for d in range(order, fit.degree + 1):
-            row = degree_start(top, d)
-            for j in range(b, d - a + 1):
-                factors = tables.binomial[d - j, a] * tables.binomial[j, b]
-                w.V[1 + b, row + j] = factors * w.powers[0, d - j - a] * w.powers[1, j - b]
+    _fill_shift(w.across, w.along, top, fit.degree, order, w.V)
     _solve_rows(w.V, order + 1, last, 0, w.G, w.inverses, w.Y)
     _combine(w.Y, order + 1, last, w.X, degree_start(top, 0), w.U)
 
 
 @inner
-def order_covariance(order: int, fit: Fit, tangent: bool, tables: Any, w: Any) -> None:
-    """Write the covariance of c_{k-b,b} about the origin, b = 0..k, for unit noise to ``w.C``.
+def order_covariance(
+    order: int, fit: Fit, tangent: bool, noise: float, w: Any, out: Array, start: int
+) -> None:
+    """Write the covariance of c_{k-b,b} about the origin, b = 0..k, to `out` from `start` on.
 
     The frame is tangent to the fitted surface, so an error (a, b) of the gradient also turns it,
     which changes the heights h by -(a d/dx + b d/dy)(h^2) / 2. The spreads of the gradient are in
     ``w.gradient``.
     """
-    spread_order(order, fit, tables, w)
+    spread_order(order, fit, w)
     count = degree_start(fit.top, 0)
     if tangent:
         for b in range(order + 1):
@@ -259,4 +307,4 @@ def order_covariance(order: int, fit: Fit, tangent: bool, tables: Any, w: Any) -
     for b in range(1, order + 2):
         for i in range(count + 1, count + 1 + LANES):
             w.U[b, i] = 0.0
-    _inner_products(w.U, order + 1, count, w.C)
+    _inner_products(w.U, order + 1, count, noise * noise, out, start)
