@@ -39,27 +39,78 @@ BENCH = layout(
     found=(BATCH,),
     largest=(BATCH,),
     scale=(BATCH,),
-    powers=(SIDE,),
-    slopes=(SIDE,),
+    cosines=(2 * SIDE,),
+    sines=(SIDE,),
+    forms=(2, 2 * SIDE),
+    variances=(2,),
 )
 
 
 @emit
-def _square_form(to: Lanes, matrix: Rows, start: Any, count: Any, v: Rows) -> float:
-    """Return v^T M v for the square matrix M whose rows follow one another from `start` on."""
-    total = to.variable(to.constant(0.0))
+def _square_forms(
+    to: Lanes, matrix: Rows, start: Any, count: Any, vectors: Rows, out: Rows
+) -> None:
+    """Write v^T M v for the two rows v of `vectors` to `out`.
+
+    The rows of the square matrix M follow one another from `start` on.
+    """
     zero = to.constant(0.0)
+    totals = [to.variable(zero) for _ in range(2)]
     with to.count(0, count, LANES) as part:
-        line = to.variable(zero)
+        lines = [to.variable(zero) for _ in totals]
         with to.count(0, count) as i:
-            at = to.plus(start, to.mul(i, count), part)
-            term = to.times(to.spread(to.get(v.at(i))), to.load(matrix.at(at)))
-            to.put(to.add(term, to.get(line)), line)
+            row = to.load(matrix.at(to.plus(start, to.mul(i, count), part)))
+            for v, line in enumerate(lines):
+                term = to.times(to.spread(to.get(vectors.at(v, i))), row)
+                to.put(to.add(term, to.get(line)), line)
         # Behind the end of the rows there may be anything.
         there = to.below(to.minus(count, part))
-        term = to.times(to.builder.select(there, to.get(line), zero), to.load(v.at(part)))
-        to.put(to.add(term, to.get(total)), total)
-    return to.lane(to.sums([to.get(total)] * LANES), 0)
+        for v, (line, total) in enumerate(zip(lines, totals, strict=True)):
+            known = to.builder.select(there, to.get(line), zero)
+            term = to.times(known, to.load(vectors.at(v, part)))
+            to.put(to.add(term, to.get(total)), total)
+    sums = to.sums([*map(to.get, totals), *[zero] * (LANES - 2)])
+    for v in range(2):
+        to.put(to.lane(sums, v), out.at(v))
+
+
+@emit
+def _fill_forms(
+    to: Lanes, order: Any, c: Any, s: Any, cosines: Rows, sines: Rows, forms: Rows
+) -> None:
+    """Write the derivatives of c^(k-b) s^b by the angle, b = 0..k, to row 0, and these to row 1.
+
+    Parameters
+    ----------
+    order : int
+        The order k.
+    c, s : float
+        Cosine and sine of the angle.
+    cosines : (2 SIDE,) float64
+        Scratch for c^a at SIDE - 1 - a; zeros in the second half.
+    sines : (SIDE,) float64
+        Scratch for s^b.
+    forms : (2, 2 SIDE) float64
+        Receives the rows; zeros in the second half.
+    """
+    powers = [to.variable(to.real(1.0)) for _ in range(2)]
+    with to.count(0, to.plus(order, 1)) as i:
+        for power, factor, at in (
+            (powers[0], c, cosines.at(to.minus(SIDE - 1, i))),
+            (powers[1], s, sines.at(i)),
+        ):
+            to.put(to.get(power), at)
+            to.put(to.times(to.get(power), factor), power)
+    parts = range(0, SIDE, LANES)
+    for b in parts:
+        by_c = to.load(cosines.at(to.plus(to.minus(SIDE - 1, order), b)))
+        to.store(to.times(by_c, to.load(sines.at(b))), forms.at(1, b))
+    whole = to.spread(to.builder.sitofp(order, to.real(0.0).type))
+    for b in parts:
+        number = to.sequence(b)
+        behind = to.times(to.subtract(whole, number), to.load(forms.at(1, b + 1)))
+        before = to.times(number, to.load(forms.at(1, b - 1)))
+        to.store(to.subtract(before, behind), forms.at(0, b))
 
 
 @inner
@@ -67,25 +118,9 @@ def _deviations(
     covariance: Array, entry: int, order: int, c: float, s: float, bench: Any
 ) -> tuple[float, float]:
     """Return the standard deviations of g' and g at an angle, given its cosine and sine."""
-    power = 1.0
-    for b in range(order + 1):
-        bench.powers[b] = power
-        power *= s
-    power = 1.0
-    for b in range(order, -1, -1):
-        bench.powers[b] *= power
-        power *= c
-    for b in range(order + 1):
-        # d/dtheta of c^(k-b) s^b, in the same products.
-        slope = 0.0
-        if b < order:
-            slope -= (order - b) * bench.powers[b + 1]
-        if b > 0:
-            slope += b * bench.powers[b - 1]
-        bench.slopes[b] = slope
-    of_slope = _square_form(covariance, entry, order + 1, bench.slopes)
-    of_value = _square_form(covariance, entry, order + 1, bench.powers)
-    return np.sqrt(max(of_slope, 0.0)), np.sqrt(max(of_value, 0.0))
+    _fill_forms(order, c, s, bench.cosines, bench.sines, bench.forms)
+    _square_forms(covariance, entry, order + 1, bench.forms, bench.variances)
+    return np.sqrt(max(bench.variances[0], 0.0)), np.sqrt(max(bench.variances[1], 0.0))
 
 
 @inner

@@ -10,6 +10,7 @@ the inner product of X L^-T e and X L^-T f, and tr G^-1 S as the sum of its squa
 
 from __future__ import annotations
 
+from functools import reduce
 from typing import Any
 
 import numpy as np
@@ -58,7 +59,8 @@ def _solve_rows(
     float
         Sum of the squares of all solutions.
     """
-    total = to.variable(to.real(0.0))
+    # One for each row of a group, since a sum waits for the one before.
+    totals = [to.variable(to.real(0.0)) for _ in range(PANEL)]
     groups = to.div(to.plus(count, PANEL - 1), PANEL)
     with to.count(0, groups) as group:
         line = [to.plus(to.mul(group, PANEL), 1 + r) for r in range(PANEL)]
@@ -69,8 +71,8 @@ def _solve_rows(
             scale = [to.get(inverses.at(j)) for j in row]
             corner = [[to.get(L.at(row[q], row[p])) for q in range(p)] for p in range(PANEL)]
             found: list[list[Any]] = []
-            squares = to.get(total)
-            for i in line:
+            for i, total in zip(line, totals, strict=True):
+                squares = to.get(total)
                 known: list[Any] = []
                 for p in range(PANEL):
                     value = to.get(V.at(i, row[p]))
@@ -80,8 +82,8 @@ def _solve_rows(
                     to.put(value, out.at(row[p], i))
                     squares = to.add(to.times(value, value), squares)
                     known.append(value)
+                to.put(squares, total)
                 found.append([to.spread(value) for value in known])
-            to.put(squares, total)
             with to.count(0, to.minus(top, PANEL - 1), LANES) as k:
                 lines = [to.load(L.at(j, k)) for j in row]
                 for i, known in zip(line, found, strict=True):
@@ -89,7 +91,7 @@ def _solve_rows(
                     for f, part in zip(known, lines, strict=True):
                         value = to.subtract(value, to.times(f, part))
                     to.store(value, V.at(i, k))
-    return to.get(total)
+    return reduce(to.add, map(to.get, totals))
 
 
 @emit
