@@ -307,9 +307,7 @@ def stages() -> None:
             elif number == 3:
                 weighing.project(cloud, points, n, False, w)
             elif number == 4:
-                moments.sum_moments(
-                    cloud, moments.WEIGHT, n, degree, w.cubes, w.columns, w.sums, w.heights
-                )
+                moments.sum_moments(cloud, moments.WEIGHT, n, 2 * degree, degree, w)
             elif number == 5:
                 cholesky.fill_gram(w.sums, w.heights, degree, w.ordered, w.G)
             elif number == 6:

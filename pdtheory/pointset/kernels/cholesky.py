@@ -41,7 +41,7 @@ def fill_gram(to: Lanes, sums: Rows, heights: Rows, degree: Any, ordered: Rows, 
     Parameters
     ----------
     sums, heights
-        From `sum_products`, to twice the degree and to the degree.
+        From `sum_moments`, to twice the degree and to the degree.
     degree : int
         The degree K.
     ordered : (>= 2 K + 1, >= 2 K + 1 + WIDEST) float64

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from pdtheory.pointset.kernels.jit import Array, inner
 from pdtheory.pointset.kernels.lanes import LANES, Lanes, Rows, emit
 
 #: Rows of a cloud: coordinates relative to the query and squared distance, in units of the radius;
@@ -25,64 +26,52 @@ def cube_rows(degree: int) -> int:
     return (2 * degree + TALL) // TALL + (degree + TALL) // TALL + 1
 
 
-@emit
-def sum_products(
-    to: Lanes, cloud: Rows, weights: Any, n: Any, top: Any, cubes: Rows, columns: Rows, out: Rows
-) -> None:
-    """Sum w x^a y^b over n points for all a + b <= top into out[a, b].
+@inner
+def sum_moments(cloud: Array, weights: int, n: int, top: int, degree: int, w: Any) -> None:
+    """Sum w x^a y^b for a + b <= top, and w z x^a y^b for a + b <= degree.
 
     Parameters
     ----------
     cloud : (CLOUD_ROWS, >= n) float64
-        Rows X and Y hold the coordinates; row number `weights` holds w.
-    n, top : int
-        Number of points, a multiple of LANES, and largest total degree.
-    cubes : (>= cube_rows, >= BLOCK) float64
-        Scratch for 1, x^3, x^6, ...
-    columns : (WIDE + 1, >= BLOCK) float64
-        Scratch for w y^b, WIDE of them at a time, and y^WIDE.
-    out : (>= top + 4, >= top + 2 * LANES) float64
-        The sums; entries with a + b > top are scratch.
+        Rows X, Y and Z hold the coordinates; row number `weights` holds w.
+    n : int
+        Number of points, a multiple of LANES.
+    top, degree : int
+        Largest total degrees; with the second at -1 the heights are left out.
+    w : record of WORKSPACE
+        ``w.sums`` and ``w.heights`` receive the sums at [a, b]; entries with a + b above the degree
+        are scratch.
     """
-    _sum(to, cloud, weights, n, cubes, columns, top, out, None, None)
+    # The code for the sums is long, so all that need them call this function.
+    _sum(cloud, weights, n, top, degree, w.cubes, w.columns, w.sums, w.heights)
 
 
 @emit
-def sum_moments(
+def _sum(
     to: Lanes,
     cloud: Rows,
     weights: Any,
     n: Any,
+    top: Any,
     degree: Any,
     cubes: Rows,
     columns: Rows,
     sums: Rows,
     heights: Rows,
 ) -> None:
-    """Sum w x^a y^b for a + b <= 2 degree, and w z x^a y^b for a + b <= degree, in one go.
+    """Do the work of `sum_moments`.
 
-    The parameters are those of `sum_products`; row Z of the cloud holds z.
+    Parameters
+    ----------
+    cubes : (>= cube_rows, >= BLOCK) float64
+        Scratch for 1, x^3, x^6, ...
+    columns : (WIDE + 1, >= BLOCK) float64
+        Scratch for w y^b, WIDE of them at a time, and y^WIDE.
+    sums, heights : (>= top + 4, >= top + 2 * LANES) float64
+        Receive the sums.
     """
-    _sum(to, cloud, weights, n, cubes, columns, to.plus(degree, degree), sums, degree, heights)
-
-
-def _sum(
-    to: Lanes,
-    cloud: Rows,
-    weights: Any,
-    n: Any,
-    cubes: Rows,
-    columns: Rows,
-    top: Any,
-    sums: Rows,
-    degree: Any,
-    heights: Any,
-) -> None:
-    """Sum w x^a y^b and, if there is a degree for them, w z x^a y^b."""
-    targets = [(top, sums, to.integer(0))]
-    if degree is not None:
-        targets.append((degree, heights, to.plus(to.div(top, TALL), 1)))
-    for last, out, _ in targets:
+    third = to.plus(to.div(top, TALL), 1)
+    for last, out in ((top, sums), (degree, heights)):
         with to.count(0, to.plus(last, TALL)) as a, to.count(0, to.plus(last, WIDE), LANES) as b:
             to.store(to.constant(0.0), out.at(a, b))
     blocks = to.greatest(to.div(to.plus(n, BLOCK - 1), BLOCK), 1)
@@ -93,13 +82,11 @@ def _sum(
         stop = to.least(length, to.minus(n, start))
         _fill_powers(to, cloud, weights, start, stop, top, degree, cubes, columns)
         with to.count(0, to.plus(top, 1), WIDE) as b:
-            with to.count(0, len(targets)) as number:
-                last, out, cube = targets[0]
-                if degree is not None:
-                    second = to.builder.icmp_signed("!=", number, to.integer(0))
-                    last = to.builder.select(second, degree, last)
-                    out = sums.unless(second, heights)
-                    cube = to.builder.select(second, targets[1][2], cube)
+            with to.count(0, 2) as number:
+                second = to.builder.icmp_signed("!=", number, to.integer(0))
+                last = to.builder.select(second, degree, top)
+                out = sums.unless(second, heights)
+                cube = to.builder.select(second, third, to.integer(0))
                 left = to.minus(last, b)
                 first = cube
                 # The power a has left - a + 1 partners, one less in each row of a tile. Those with
@@ -135,12 +122,9 @@ def _fill_powers(
         x = to.load(cloud.at(X, at))
         cube = to.times(to.times(x, x), x)
         after = to.integer(0)
-        firsts = [(to.constant(1.0), top)]
-        if degree is not None:
-            firsts.append((to.load(cloud.at(Z, at)), degree))
-        for first, last in firsts:
+        for first, last in ((to.constant(1.0), top), (to.load(cloud.at(Z, at)), degree)):
             power = to.variable(first)
-            end = to.plus(after, to.div(last, TALL), 1)
+            end = to.plus(after, to.div(to.plus(last, TALL), TALL))
             with to.count(after, end) as row:
                 value = to.get(power)
                 to.store(value, cubes.at(row, i))

@@ -19,7 +19,6 @@ from pdtheory.pointset.kernels.moments import (
     multiply_rows,
     subtract_polynomial,
     sum_moments,
-    sum_products,
 )
 from pdtheory.pointset.kernels.tables import make_tables
 
@@ -53,7 +52,7 @@ def regress(cloud: Array, weights: int, n: int, degree: int, w: Any) -> tuple[in
         The degree reached and its smallest relative pivot.
     """
     count = (degree + 1) * (degree + 2) // 2
-    sum_moments(cloud, weights, n, degree, w.cubes, w.columns, w.sums, w.heights)
+    sum_moments(cloud, weights, n, 2 * degree, degree, w)
     fill_gram(w.sums, w.heights, degree, w.ordered, w.G)
     factor(w.G, count, w.diagonal, w.pivots, w.inverses)
     reached = -1
@@ -103,11 +102,11 @@ def fill_residuals(cloud: Array, n: int, degree: int, w: Any) -> None:
 def refine(cloud: Array, weights: int, n: int, degree: int, w: Any) -> None:
     """Improve ``w.c`` by solving for the residuals of the samples, which are in their row."""
     multiply_rows(cloud, weights, RESIDUAL, n, PRODUCT)
-    sum_products(cloud, PRODUCT, n, degree, w.cubes, w.columns, w.heights)
+    sum_moments(cloud, PRODUCT, n, degree, -1, w)
     row = 1
     for d in range(degree, -1, -1):
         for b in range(d + 1):
-            w.v[row] = w.heights[d - b, b]
+            w.v[row] = w.sums[d - b, b]
             row += 1
     solve_transposed(w.G, row - 1, w.inverses, w.v, w.y)
     solve_lower(w.G, row - 1, w.inverses, w.y, w.step)

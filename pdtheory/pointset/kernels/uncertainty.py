@@ -24,7 +24,7 @@ from pdtheory.pointset.kernels.moments import (
     RESIDUAL,
     WEIGHT,
     multiply_rows,
-    sum_products,
+    sum_moments,
 )
 from pdtheory.pointset.kernels.regression import degree_start
 from pdtheory.pointset.kernels.tables import ROWS, SIDE
@@ -133,7 +133,7 @@ def _fill_shift(
 
 @inner
 def _fill_powers(cx: float, cy: float, top: int, tables: Any, w: Any) -> None:
-    """Write binomial(i, a) (-cx)^(i-a) to across[a, SIDE - 1 - i], the same of cy to along[a, i]."""
+    """Write binomial(i, a) (-cx)^(i-a) to across[a, SIDE - 1 - i], that of cy to along[a, i]."""
     power_x = 1.0
     power_y = 1.0
     for i in range(top + 1):
@@ -232,13 +232,13 @@ def prepare_covariances(
     count = degree_start(top, 0)
     if robust is not None:
         # The covariance of an l1 fit holds the Gram matrix of the weights before reweighting.
-        sum_products(cloud, WEIGHT, n, 2 * top, w.cubes, w.columns, w.sums)
+        sum_moments(cloud, WEIGHT, n, 2 * top, -1, w)
         fill_gram(w.sums, w.heights, top, w.ordered, w.G)
         factor(w.G, count, w.diagonal, w.pivots, w.inverses)
         for i in range(1, first):
             w.inverses[i] = 0.0
     multiply_rows(cloud, WEIGHT, WEIGHT, n, PRODUCT)
-    sum_products(cloud, PRODUCT, n, 2 * top, w.cubes, w.columns, w.sums)
+    sum_moments(cloud, PRODUCT, n, 2 * top, -1, w)
     fill_gram(w.sums, w.heights, top, w.ordered, w.S)
     factor(w.S, count, w.step, w.y, w.spare)
     rows = (count + PANEL - 1) // PANEL * PANEL
