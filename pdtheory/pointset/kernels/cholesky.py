@@ -128,6 +128,11 @@ def factor(to: Lanes, gram: Rows, count: Any, diagonal: Rows, pivots: Rows, inve
             for place, value in zip(corner, ahead, strict=True):
                 to.put(value, place)
             _subtract(to, gram, row, below)
+    with to.count(1, to.plus(rows, 1), LANES) as i:
+        left = to.load(pivots.at(i))
+        part = to.divide(left, to.load(diagonal.at(i)))
+        some = to.builder.fcmp_ordered(">", left, to.constant(0.0))
+        to.store(to.builder.select(some, part, to.constant(0.0)), pivots.at(i))
 
 
 def _corner(
@@ -143,6 +148,7 @@ def _corner(
     build = to.builder
     good = to.get(sound)
     squares: list[Any] = []  # reciprocals of the pivots; their roots are off the critical path
+    goods: list[Any] = []
     rows: list[list[Any]] = []
     for p in range(PANEL):
         rest: list[Any] = []
@@ -154,18 +160,24 @@ def _corner(
             pivot = to.subtract(pivot, to.times(value, to.times(value, squares[q])))
             rest.append(value)
         at = to.minus(top, p)
-        relative = build.fdiv(pivot, to.get(diagonal.at(at)))
-        good = build.and_(good, build.fcmp_ordered(">", relative, to.real(SINGULAR)))
-        square = build.fdiv(to.real(1.0), build.select(good, pivot, to.real(1.0)))
-        squares.append(build.select(good, square, to.real(0.0)))
+        least = to.times(to.get(diagonal.at(at)), to.real(SINGULAR))
+        good = build.and_(good, build.fcmp_ordered(">", pivot, least))
+        goods.append(good)
+        squares.append(build.fdiv(to.real(1.0), pivot))
         rows.append(rest)
-        to.put(build.select(good, relative, to.real(0.0)), pivots.at(at))
-    inverse = [to.root(square) for square in squares]
+        to.put(build.select(good, pivot, to.real(0.0)), pivots.at(at))
+    # What follows from a pivot that fails is left out here, where nothing waits for it.
+    zero = to.real(0.0)
+    inverse = [build.select(g, to.root(s), zero) for g, s in zip(goods, squares, strict=True)]
     for p in range(PANEL):
         to.put(inverse[p], inverses.at(to.minus(top, p)))
-    # A pivot that fails ends the work after the rows of its own panel.
+    # It ends the work after the rows of its own panel.
     to.put(good, sound)
-    factors = [to.times(rows[p][q], inverse[q]) for p in range(PANEL) for q in range(p)]
+    factors = [
+        build.select(goods[q], to.times(rows[p][q], inverse[q]), zero)
+        for p in range(PANEL)
+        for q in range(p)
+    ]
     return [*factors, *inverse]
 
 

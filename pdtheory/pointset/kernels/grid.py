@@ -1,7 +1,8 @@
 """Neighbours within a radius from a grid of occupied cells with points stored in cell order.
 
 Cells are numbered with z running fastest, so the cells that a ball touches in one column of the
-grid are one run of points, found by two binary searches. All points of a cell share these runs.
+grid are one run of points. Few other cells of a surface lie between those of neighbouring columns,
+so the runs are found one after the other. All points of a cell share them.
 """
 
 from __future__ import annotations
@@ -14,6 +15,9 @@ from pdtheory.pointset.columns import highest, lowest
 from pdtheory.pointset.kernels.jit import Array, IntArray, inner
 from pdtheory.pointset.kernels.lanes import LANES, Lanes, Rows, emit
 from pdtheory.pointset.kernels.tables import REACH
+
+#: Cells that are looked at one by one before the rest is searched by halving.
+NEAR = 8
 
 
 class Grid(NamedTuple):
@@ -56,6 +60,17 @@ def _lower_bound(keys: IntArray, key: int, low: int, high: int) -> int:
 
 
 @inner
+def _pass_by(keys: IntArray, key: int, low: int) -> int:
+    """Index of the first entry >= key, known to be `low` or behind it, and likely not far."""
+    end = min(low + NEAR, len(keys))
+    while low < end and keys[low] < key:
+        low += 1
+    if low < end:
+        return low
+    return _lower_bound(keys, key, low, len(keys))
+
+
+@inner
 def find_runs(grid: Grid, ix: int, iy: int, iz: int, runs: IntArray) -> tuple[int, int]:
     """Write the runs of points in the cells around (ix, iy, iz).
 
@@ -70,19 +85,23 @@ def find_runs(grid: Grid, ix: int, iy: int, iz: int, runs: IntArray) -> tuple[in
     high_z = min(iz + REACH, grid.shape[2] - 1)
     if low_z > high_z:
         return 0, 0
+    low_y = max(iy - REACH, 0)
+    high_y = min(iy + REACH, grid.shape[1] - 1)
+    at = 0
     for jx in range(max(ix - REACH, 0), min(ix + REACH, grid.shape[0] - 1) + 1):
-        for jy in range(max(iy - REACH, 0), min(iy + REACH, grid.shape[1] - 1) + 1):
-            column = (jx * grid.shape[1] + jy) * grid.shape[2]
-            low = _lower_bound(grid.keys, column + low_z, 0, len(grid.keys))
-            high = min(low + high_z - low_z + 1, len(grid.keys))
-            high = _lower_bound(grid.keys, column + high_z + 1, low, high)
+        column = (jx * grid.shape[1] + low_y) * grid.shape[2]
+        at = _lower_bound(grid.keys, column + low_z, at, len(grid.keys))
+        for _ in range(low_y, high_y + 1):
+            low = _pass_by(grid.keys, column + low_z, at)
+            at = _pass_by(grid.keys, column + high_z + 1, low)
             start = grid.starts[low]
-            stop = grid.starts[high]
+            stop = grid.starts[at]
             if stop > start:
                 runs[count, 0] = start
                 runs[count, 1] = stop
                 count += 1
                 total += stop - start
+            column += grid.shape[2]
     return count, total
 
 
