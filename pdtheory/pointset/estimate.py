@@ -15,14 +15,12 @@ from pdtheory.pointset.engine import Engine
 from pdtheory.pointset.field import DirectionField
 from pdtheory.pointset.neighbourhoods import suggest_radius
 from pdtheory.pointset.options import Options, shows_options_of
-from pdtheory.pointset.pool import Flag, run_spans, spans
+from pdtheory.pointset.pool import Flag, chunk_size, run_spans, spans
 from pdtheory.pointset.prepare import prepare
 from pdtheory.pointset.selection import Selector
 
 #: Said before the first chunk: in the first run on a machine this takes up to a minute.
 PREPARING = "preparing the kernels (compiled once)"
-#: Points in a chunk: some ten milliseconds of work, or a second of it with l1.
-CHUNK = 512
 
 
 @shows_options_of(prepare)
@@ -114,7 +112,7 @@ def estimate_directions(
         where = engine.visit[start:stop]
         collector.compute(where, flag, where)
 
-    todo = spans(0, len(run.places), CHUNK)
+    todo = spans(0, len(run.places), chunk_size(len(run.places), run.threads))
     for _ in run_spans(work, todo, run.threads, run.progress, "estimating directions"):
         pass
     result = collector.field(run.threads)

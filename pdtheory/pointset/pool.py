@@ -16,6 +16,10 @@ Flag = npt.NDArray[np.uint8]
 
 #: Seconds between looks at the callback and at Ctrl-C while the threads work.
 _PULSE = 0.1
+#: Most points in a chunk: handing one out takes up to a millisecond of Python.
+_CHUNK = 2048
+#: Chunks for each thread, if there are few points, so that all threads end about together.
+_TURNS = 4
 
 
 def thread_count(threads: int | None) -> int:
@@ -28,6 +32,11 @@ def thread_count(threads: int | None) -> int:
     if threads < 1:
         raise InputError(f"{threads} threads cannot work; give a positive number or None.")
     return threads
+
+
+def chunk_size(count: int, threads: int) -> int:
+    """Return how many of `count` points to hand to a thread at a time."""
+    return max(1, min(_CHUNK, -(-count // (_TURNS * threads))))
 
 
 def spans(first: int, last: int, size: int) -> list[tuple[int, int]]:

@@ -15,10 +15,10 @@ import numpy.typing as npt
 
 from pdtheory.pointset.assemble import Collector
 from pdtheory.pointset.cloud import IntArray, PointCloud
-from pdtheory.pointset.estimate import CHUNK, PREPARING, refuse_nothing
+from pdtheory.pointset.estimate import PREPARING, refuse_nothing
 from pdtheory.pointset.options import Options, shows_options_of
 from pdtheory.pointset.parts import load_column, open_folder, part_path, write_part
-from pdtheory.pointset.pool import Flag, run_spans, spans
+from pdtheory.pointset.pool import Flag, chunk_size, run_spans, spans
 from pdtheory.pointset.prepare import Run, prepare
 
 #: Queries in one part.
@@ -106,9 +106,12 @@ def _computed(
     engine = run.engine
     owner: dict[tuple[int, int], int] = {}
     lock = threading.Lock()
+    left: dict[int, int] = {}
+    size = chunk_size(len(run.places), run.threads)
     for number in missing:
-        owner |= dict.fromkeys(spans(*blocks[number], CHUNK), number)
-    left = {number: len(spans(*blocks[number], CHUNK)) for number in missing}
+        chunks = spans(*blocks[number], size)
+        owner |= dict.fromkeys(chunks, number)
+        left[number] = len(chunks)
     open_parts: dict[int, Collector] = {}
 
     def work(start: int, stop: int, flag: Flag) -> None:

@@ -107,7 +107,7 @@ def guess_axes(S: Array, Q: Array) -> bool:
 
 
 @inner
-def follow_axes(S: Array, A: Array, Q: Array) -> bool:
+def follow_axes(S: Array, A: Array, Q: Array, steps: int) -> bool:
     """Find the axes of a matrix that are close to those in `Q`, to which they go.
 
     The normal is an eigenvector by Rayleigh quotient iteration, whose error is cubed in each step;
@@ -133,7 +133,7 @@ def follow_axes(S: Array, A: Array, Q: Array) -> bool:
     x = y = 0.0
     z = 1.0
     square = 1.0
-    for _ in range(3):
+    for _ in range(steps):
         p = r00 - low
         q = r11 - low
         x = r01 * r12 - r02 * q

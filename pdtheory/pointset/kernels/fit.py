@@ -220,6 +220,6 @@ def finish(fit: Fit, tangent: bool, w: Any) -> int:
         status |= _LOWERED | _ILL
     if doubtful(fit.top, fit.degree, w):
         status |= _ILL
-    if np.hypot(fit.cx, fit.cy) > ONE_SIDED:
+    if fit.cx * fit.cx + fit.cy * fit.cy > ONE_SIDED * ONE_SIDED:
         status |= _ONE_SIDED
     return status

@@ -80,8 +80,10 @@ def principal_frame(
             for j in range(i, 3):
                 S[i, j] = S[j, i] = sums[k] * unit - (sums[1 + i] * unit) * (sums[1 + j] * unit)
                 k += 1
-        close = turn > 0 or guess_axes(S, Q)
-        if not (close and follow_axes(S, A, Q)):
+        close = (
+            follow_axes(S, A, Q, 2) if turn > 0 else guess_axes(S, Q) and follow_axes(S, A, Q, 3)
+        )
+        if not close:
             sorted_axes(S, A, Q)
         if not A[1, 1] > COLLINEAR * A[0, 0]:
             return False

@@ -196,7 +196,7 @@ def untilt(c: Array, degree: int, frame: Array, table: Array, middle: Array, slo
         Scratch whose left half and first rows are zero.
     """
     last = degree_start(degree, 0)
-    size = np.hypot(c[last - 2], c[last - 1])
+    size = np.sqrt(c[last - 2] * c[last - 2] + c[last - 1] * c[last - 1])
     if size == 0.0:
         return
     a = c[last - 2] / size
@@ -225,7 +225,7 @@ def tilt_matters(c: Array, degree: int, residual: float, norms: Array) -> bool:
     radius.
     """
     last = degree_start(degree, 0)
-    slope = np.hypot(c[last - 2], c[last - 1])
+    slope = np.sqrt(c[last - 2] * c[last - 2] + c[last - 1] * c[last - 1])
     height = 0.0
     scale = 1.0
     for d in range(degree + 1):
