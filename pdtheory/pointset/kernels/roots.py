@@ -4,6 +4,7 @@ With g(theta) = sum_n phi_n e^{i n theta}, the angles are the zeros of h = g'. O
 width d the linear interpolant of a function differs from it by at most d^2 / 8 times the maximum of
 its second derivative, which the coefficients bound. So from the values at both ends one can certify
 that h has no zero, or that h' has none and h is monotone. Intervals where neither holds are halved.
+Order 2 has one frequency besides the constant, and its angles a formula.
 """
 
 from __future__ import annotations
@@ -131,6 +132,21 @@ def _note(
 
 
 @inner
+def _note_axes(re: Array, im: Array, table: Array, kind: Array, found: int) -> None:
+    """Write down the angles of order 2: g = phi_0 + 2 |phi_2| cos(2 theta + arg phi_2)."""
+    high = -0.5 * np.arctan2(im[1], re[1])
+    if high < 0.0:
+        high += np.pi
+        if high >= np.pi:
+            high = 0.0
+    low = high + 0.5 * np.pi if high < 0.5 * np.pi else high - 0.5 * np.pi
+    for angle in (min(high, low), max(high, low)):
+        _note(re, im, 2, angle, angle, 0.0, 0.0, False, False, table, kind, found)
+        kind[found] = 1.0 if angle == high else -1.0
+        found += 1
+
+
+@inner
 def bracket_angles(
     re: Array,
     im: Array,
@@ -184,6 +200,9 @@ def bracket_angles(
     found = begin
     if third == 0.0:
         return 0
+    if order == 2:
+        _note_axes(re, im, table, kind, begin)
+        return 2
     width = np.pi / SAMPLES
     clear = third * width * width / 8.0
     certain = fourth * width * width / 8.0
