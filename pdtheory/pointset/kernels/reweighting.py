@@ -9,6 +9,7 @@ import numpy as np
 from pdtheory.conventions import Status
 from pdtheory.pointset.kernels.fit import Fit
 from pdtheory.pointset.kernels.jit import Array, inner
+from pdtheory.pointset.kernels.lanes import LANES, Lanes, Rows, emit
 from pdtheory.pointset.kernels.moments import BEFORE, RESIDUAL, REWEIGHT, WEIGHT
 from pdtheory.pointset.kernels.regression import (
     misfit,
@@ -33,14 +34,21 @@ def _along(before: float, now: float, step: float) -> float:
     return before + step * (now - before)
 
 
-@inner
-def _total(cloud: Array, n: int, before: int, step: float) -> float:
-    """Weighted sum of the absolute residuals on the line through the last and the present ones."""
-    total = 0.0
-    for i in range(n):
-        r = _along(cloud[before, i], cloud[RESIDUAL, i], step)
-        total += cloud[WEIGHT, i] * abs(r)
-    return total
+@emit
+def _sum_along(to: Lanes, cloud: Rows, n: Any, out: Rows) -> None:
+    """Write the weighted sums of the absolute residuals after each of the STEPS."""
+    build, zero = to.builder, to.constant(0.0)
+    totals = [to.variable(zero) for _ in STEPS]
+    with to.count(0, n, LANES) as i:
+        weight, before, now = (to.load(cloud.at(row, i)) for row in (WEIGHT, BEFORE, RESIDUAL))
+        move = to.subtract(now, before)
+        for step, total in zip(STEPS, totals, strict=True):
+            r = to.add(to.times(move, to.constant(step)), before)
+            size = build.select(build.fcmp_ordered("<", r, zero), to.subtract(zero, r), r)
+            to.put(to.add(to.times(weight, size), to.get(total)), total)
+    found = [*map(to.get, totals), *[zero] * (-len(totals) % LANES)]
+    for i in range(0, len(found), LANES):
+        to.store(to.sums(found[i : i + LANES]), out.at(i))
 
 
 @inner
@@ -59,7 +67,9 @@ def fit_robustly(cloud: Array, n: int, fit: Fit, w: Any) -> Fit:
     reached = fit.degree
     pivot = fit.pivot
     status = fit.status | _NOT_CONVERGED
-    total = _total(cloud, n, RESIDUAL, 1.0)
+    total = 0.0
+    for i in range(n):
+        total += cloud[WEIGHT, i] * abs(cloud[RESIDUAL, i])
     for _ in range(ROUNDS):
         floor = max(FLOOR * total / weight, 1e-16)
         for i in range(n):
@@ -73,12 +83,12 @@ def fit_robustly(cloud: Array, n: int, fit: Fit, w: Any) -> Fit:
                 fit.status | _DEGENERATE, 0, degree, 0.0, 0.0, np.nan, np.nan, fit.neighbours
             )
         settle(cloud, REWEIGHT, n, degree, weight, pivot, w)
+        _sum_along(cloud, n, w.spread)
         best = STEPS[0]
         after = np.inf
-        for step in STEPS:
-            size = _total(cloud, n, BEFORE, step)
-            if size < after:
-                after = size
+        for number, step in enumerate(STEPS):
+            if w.spread[number] < after:
+                after = w.spread[number]
                 best = step
         for i in range(n):
             cloud[RESIDUAL, i] = _along(cloud[BEFORE, i], cloud[RESIDUAL, i], best)
