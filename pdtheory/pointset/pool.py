@@ -16,10 +16,9 @@ Flag = npt.NDArray[np.uint8]
 
 #: Seconds between looks at the callback and at Ctrl-C while the threads work.
 _PULSE = 0.1
-#: Most points in a chunk: handing one out takes up to a millisecond of Python.
-_CHUNK = 2048
-#: Chunks for each thread, if there are few points, so that all threads end about together.
-_TURNS = 4
+#: Most points in a chunk, since handing one out takes up to a millisecond of Python, and fewest
+#: where many small ones let all threads end together.
+CHUNK, _FEWEST = 2048, 128
 
 
 def thread_count(threads: int | None) -> int:
@@ -34,14 +33,19 @@ def thread_count(threads: int | None) -> int:
     return threads
 
 
-def chunk_size(count: int, threads: int) -> int:
-    """Return how many of `count` points to hand to a thread at a time."""
-    return max(1, min(_CHUNK, -(-count // (_TURNS * threads))))
-
-
 def spans(first: int, last: int, size: int) -> list[tuple[int, int]]:
     """Return (start, stop) of the chunks of `size` that ``range(first, last)`` falls into."""
     return [(start, min(start + size, last)) for start in range(first, last, size)]
+
+
+def shrinking_spans(first: int, last: int, threads: int) -> list[tuple[int, int]]:
+    """Return (start, stop) of chunks, the last ones small so that all threads end together."""
+    chunks = []
+    while first < last:
+        size = min(CHUNK, max(_FEWEST, (last - first) // (2 * threads)))
+        chunks.append((first, min(first + size, last)))
+        first += size
+    return chunks
 
 
 def run_spans(

@@ -18,7 +18,7 @@ from pdtheory.pointset.cloud import IntArray, PointCloud
 from pdtheory.pointset.estimate import PREPARING, refuse_nothing
 from pdtheory.pointset.options import Options, shows_options_of
 from pdtheory.pointset.parts import load_column, open_folder, part_path, write_part
-from pdtheory.pointset.pool import Flag, chunk_size, run_spans, spans
+from pdtheory.pointset.pool import CHUNK, Flag, run_spans, shrinking_spans, spans
 from pdtheory.pointset.prepare import Run, prepare
 
 #: Queries in one part.
@@ -107,9 +107,10 @@ def _computed(
     owner: dict[tuple[int, int], int] = {}
     lock = threading.Lock()
     left: dict[int, int] = {}
-    size = chunk_size(len(run.places), run.threads)
     for number in missing:
-        chunks = spans(*blocks[number], size)
+        chunks = spans(*blocks[number], CHUNK)
+        if number == missing[-1]:
+            chunks = shrinking_spans(*blocks[number], run.threads)
         owner |= dict.fromkeys(chunks, number)
         left[number] = len(chunks)
     open_parts: dict[int, Collector] = {}
