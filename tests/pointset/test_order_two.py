@@ -108,3 +108,24 @@ def test_plane_is_isotropic_in_every_order():
     for order in (2, 3, 4):
         assert np.all(field[order].isotropic)
         assert len(field[order]) == 0
+
+
+@pytest.mark.parametrize("turn", range(16))
+def test_angles_of_a_parabolic_cylinder_follow_it_around_the_circle(turn):
+    """z = s^2 / 2 with s along an axis at any angle, those of the coordinates among them."""
+    angle = turn * np.pi / 16
+    grid = np.linspace(-1, 1, 41)
+    x, y = (part.ravel() for part in np.meshgrid(grid, grid))
+    along = x * np.cos(angle) + y * np.sin(angle)
+    points = np.column_stack([x, y, along**2 / 2])
+    field = estimate_directions(
+        points, radius=0.6, degree=4, orders=(2,), queries=np.zeros((1, 3)), orient=(0, 0, 9)
+    )
+    rows = field[2]
+    assert np.all((rows.angle >= 0) & (rows.angle < 2 * np.pi))
+    assert np.all(np.diff(rows.angle) > 0)
+    assert rows.kind.tolist() in ([1, -1, 1, -1], [-1, 1, -1, 1])
+    far = (rows.angle[rows.kind == Kind.MAXIMUM] - angle + np.pi / 2) % np.pi - np.pi / 2
+    np.testing.assert_allclose(far, 0.0, atol=1e-9)
+    np.testing.assert_allclose(rows.eigenvalue[rows.kind == Kind.MAXIMUM], 1.0, atol=1e-8)
+    np.testing.assert_allclose(rows.eigenvalue[rows.kind == Kind.MINIMUM], 0.0, atol=1e-8)

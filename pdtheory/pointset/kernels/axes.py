@@ -111,7 +111,18 @@ def follow_axes(S: Array, A: Array, Q: Array, steps: int) -> bool:
     """Find the axes of a matrix that are close to those in `Q`, to which they go.
 
     The normal is an eigenvector by Rayleigh quotient iteration, whose error is cubed in each step;
-    the other two axes need one rotation. The diagonal of `A` receives the variances.
+    the other two axes need one rotation.
+
+    Parameters
+    ----------
+    S : (3, 3) float64
+        The matrix.
+    A : (3, 3) float64
+        Its diagonal receives the variances.
+    Q : (3, 3) float64
+        Orthogonal columns; receives the axes, by descending variance.
+    steps : int
+        Number of steps.
 
     Returns
     -------

@@ -87,12 +87,13 @@ def _fill_forms(
     c, s : float
         Cosine and sine of the angle.
     cosines : (2 SIDE,) float64
-        Scratch for c^a at SIDE - 1 - a; zeros in the second half.
+        Scratch for c^a at SIDE - 1 - a.
     sines : (SIDE,) float64
         Scratch for s^b.
     forms : (2, 2 SIDE) float64
-        Receives the rows; zeros in the second half.
+        Receives the rows, and zeros behind them up to SIDE; zeros in the second half.
     """
+    zero = to.constant(0.0)
     powers = [to.variable(to.real(1.0)) for _ in range(2)]
     with to.count(0, to.plus(order, 1)) as i:
         for power, factor, at in (
@@ -104,7 +105,9 @@ def _fill_forms(
     parts = range(0, SIDE, LANES)
     for b in parts:
         by_c = to.load(cosines.at(to.plus(to.minus(SIDE - 1, order), b)))
-        to.store(to.times(by_c, to.load(sines.at(b))), forms.at(1, b))
+        product = to.times(by_c, to.load(sines.at(b)))
+        there = to.below(to.minus(to.plus(order, 1), b))
+        to.store(to.builder.select(there, product, zero), forms.at(1, b))
     whole = to.spread(to.builder.sitofp(order, to.real(0.0).type))
     for b in parts:
         number = to.sequence(b)
