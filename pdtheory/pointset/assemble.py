@@ -45,7 +45,7 @@ class Collector:
     def compute(self, where: IntArray, flag: Flag, slots: IntArray) -> None:
         """Compute the queries `where`, which are the points `slots`; several threads may do so."""
         rows = self._engine.work(where, flag, slots, self._found)
-        lengths = np.maximum(self._found.counts[:, slots], 0).sum(axis=1)
+        lengths = self._found.lengths(slots).sum(axis=1)
         with self._lock:
             starts = self._used.copy()
             self._used += lengths
@@ -63,9 +63,12 @@ class Collector:
         threads : int
             Threads to put the orders together in.
         """
-        with ThreadPoolExecutor(threads) as pool:
-            orders = list(pool.map(self._directions, range(len(self._engine.orders))))
         found = self._found
+        slots = np.concatenate([np.empty(0, np.int64), *self._slots])
+        lengths = found.lengths()
+        with ThreadPoolExecutor(threads) as pool:
+            numbers = range(len(lengths))
+            orders = list(pool.map(lambda j: self._directions(j, lengths[j], slots), numbers))
         return DirectionField(
             points=self._points,
             frames=found.numbers[:, results.FRAME : results.FRAME + 9].reshape(-1, 3, 3),
@@ -81,14 +84,11 @@ class Collector:
             directions={order.order: order for order in orders},
         )
 
-    def _directions(self, j: int) -> OrderDirections:
-        """Return the directions of one order."""
-        counts = self._found.counts[j]
+    def _directions(self, j: int, lengths: IntArray, slots: IntArray) -> OrderDirections:
+        """Return the directions of one order, whose rows were kept in the order of `slots`."""
         order = int(self._engine.orders[j])
-        lengths = np.maximum(counts, 0)
         offsets = np.concatenate(([0], np.cumsum(2 * lengths)))
-        slots = np.concatenate([np.empty(0, np.int64), *self._slots])
-        firsts = np.zeros_like(counts)
+        firsts = np.zeros_like(lengths)
         firsts[slots] = np.cumsum(lengths[slots]) - lengths[slots]
         total = int(offsets[-1])
         numbers = np.empty((results.VECTOR, total))
@@ -99,7 +99,7 @@ class Collector:
             offsets=offsets,
             vector=vectors,
             kind=kinds,
-            isotropic=counts < 0,
+            isotropic=self._found.counts[j] < 0,
             angle=numbers[results.ANGLE],
             eigenvalue=numbers[results.EIGENVALUE],
             strength=numbers[results.STRENGTH],

@@ -214,7 +214,7 @@ class Selector:
         rows = np.empty((int(counts.sum()), COLUMNS))
         for number, result in enumerate(results):
             here = np.flatnonzero(np.tile(chosen == number, len(self.orders)))
-            own_rows = result.rows[_rows_of(result.found.lengths.ravel(), here)]
+            own_rows = result.rows[_rows_of(result.found.lengths().ravel(), here)]
             rows[_rows_of(counts, here)] = own_rows
         return rows
 
@@ -236,7 +236,7 @@ def _row_of_order(result: _Result, order: int) -> npt.NDArray[np.complex128]:
 
 def _variance(result: _Result, j: int, unit: FloatArray) -> FloatArray:
     """Return the variance of the order's g, the mean over its directions; 0 if it is isotropic."""
-    lengths = result.found.lengths
+    lengths = result.found.lengths()
     counts = lengths[j]
     start = int(lengths[:j].sum())
     point = np.repeat(np.arange(len(counts)), counts)

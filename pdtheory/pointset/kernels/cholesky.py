@@ -250,8 +250,7 @@ def solve_lower(to: Lanes, gram: Rows, count: Any, inverses: Rows, y: Rows, c: R
             for p in range(PANEL):
                 line = to.times(known, to.load(gram.at(row[p], k)))
                 to.put(to.add(to.get(sums[p]), line), sums[p])
-        rest = [to.constant(0.0)] * (LANES - PANEL)
-        total = to.sums([*map(to.get, sums), *rest])
+        total = to.sums([to.get(place) for place in sums])
         found: list[Any] = []
         for p in range(PANEL):
             value = to.subtract(to.get(y.at(row[p])), to.lane(total, p))

@@ -42,7 +42,7 @@ BENCH = layout(
     cosines=(2 * SIDE,),
     sines=(SIDE,),
     forms=(2, 2 * SIDE),
-    variances=(2,),
+    variances=(LANES,),
 )
 
 
@@ -69,9 +69,7 @@ def _square_forms(
             known = to.builder.select(there, to.get(line), zero)
             term = to.times(known, to.load(vectors.at(v, part)))
             to.put(to.add(term, to.get(total)), total)
-    sums = to.sums([*map(to.get, totals), *[zero] * (LANES - 2)])
-    for v in range(2):
-        to.put(to.lane(sums, v), out.at(v))
+    to.store_sums(totals, out)
 
 
 @emit

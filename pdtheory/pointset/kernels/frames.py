@@ -35,10 +35,7 @@ def _sum_spread(to: Lanes, cloud: Rows, n: Any, plane: Rows, out: Rows) -> None:
         terms = [(u, one), (u, x), (u, y), (u, z), (ux, x), (ux, y), (ux, z), (uy, y), (uy, z)]
         for total, (a, b) in zip(sums, [*terms, (uz, z)], strict=True):
             to.put(to.add(to.times(a, b), to.get(total)), total)
-    rest = [to.constant(0.0)] * (-len(sums) % LANES)
-    found = [*map(to.get, sums), *rest]
-    for i in range(0, len(found), LANES):
-        to.store(to.sums(found[i : i + LANES]), out.at(i))
+    to.store_sums(sums, out)
 
 
 @inner
@@ -80,10 +77,9 @@ def principal_frame(
             for j in range(i, 3):
                 S[i, j] = S[j, i] = sums[k] * unit - (sums[1 + i] * unit) * (sums[1 + j] * unit)
                 k += 1
-        close = (
-            follow_axes(S, A, Q, 2) if turn > 0 else guess_axes(S, Q) and follow_axes(S, A, Q, 3)
-        )
-        if not close:
+        steps = 3 if turn == 0 else 2
+        known = turn > 0 or guess_axes(S, Q)
+        if not (known and follow_axes(S, A, Q, steps)):
             sorted_axes(S, A, Q)
         if not A[1, 1] > COLLINEAR * A[0, 0]:
             return False

@@ -155,7 +155,8 @@ class Lanes:
         return self.builder.call(sqrt, [value])
 
     def sums(self, vectors: Sequence[Any]) -> Any:
-        """One vector with the sums over the lanes of each of LANES vectors."""
+        """One vector with the sums over the lanes of each of up to LANES vectors, then zeros."""
+        vectors = [*vectors, *[self.constant(0.0)] * (LANES - len(vectors))]
         index = ir.VectorType(_INDEX, LANES)
         even = ir.Constant(index, list(range(0, 2 * LANES, 2)))
         odd = ir.Constant(index, list(range(1, 2 * LANES, 2)))
@@ -167,6 +168,12 @@ class Lanes:
                 for u, v in zip(vectors[::2], vectors[1::2], strict=True)
             ]
         return vectors[0]
+
+    def store_sums(self, places: Sequence[Any], out: Rows) -> None:
+        """Write the sums over the lanes of what is in `places`, then zeros up to a whole vector."""
+        for first in range(0, len(places), LANES):
+            group = [self.get(place) for place in places[first : first + LANES]]
+            self.store(self.sums(group), out.at(first))
 
     def any(self, mask: Any) -> Any:
         """Whether a truth value holds in some lane."""

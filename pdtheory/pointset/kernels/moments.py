@@ -182,7 +182,6 @@ def _tile(
     for offset, row in enumerate(sums):
         for column in range(0, len(row), LANES):
             part = [to.get(total) for total in row[column : column + LANES]]
-            part += [to.constant(0.0)] * (LANES - len(part))
             at = out.at(to.plus(a, offset), to.plus(b, column))
             to.store(to.add(to.load(at), to.sums(part)), at)
 

@@ -43,10 +43,9 @@ class Found(NamedTuple):
         """Return one of the columns as int64, shape (Q,)."""
         return self.numbers[:, number].astype(np.int64)
 
-    @property
-    def lengths(self) -> Any:
-        """(J, Q) int64: number of directions on the half circle, 0 where an order is constant."""
-        return np.maximum(self.counts, 0)
+    def lengths(self, slots: Any = slice(None)) -> Any:
+        """(J, C) int64: directions on the half circle, 0 where an order is constant."""
+        return np.maximum(self.counts[:, slots], 0)
 
 
 def make_found(size: int, orders: int, columns: int) -> Found:

@@ -46,9 +46,7 @@ def _sum_along(to: Lanes, cloud: Rows, n: Any, out: Rows) -> None:
             r = to.add(to.times(move, to.constant(step)), before)
             size = build.select(build.fcmp_ordered("<", r, zero), to.subtract(zero, r), r)
             to.put(to.add(to.times(weight, size), to.get(total)), total)
-    found = [*map(to.get, totals), *[zero] * (-len(totals) % LANES)]
-    for i in range(0, len(found), LANES):
-        to.store(to.sums(found[i : i + LANES]), out.at(i))
+    to.store_sums(totals, out)
 
 
 @inner

@@ -103,7 +103,7 @@ def _fill_shift(
     Parameters
     ----------
     across, along
-        Powers of the centre with their binomial coefficients, from `_fill_powers`.
+        Powers of the centre with their binomial coefficients, from `_fill_binomials`.
     top, used : int
         Degree that the coefficients are laid out for, and the largest that is not zero.
     order : int
@@ -132,7 +132,7 @@ def _fill_shift(
 
 
 @inner
-def _fill_powers(cx: float, cy: float, top: int, tables: Any, w: Any) -> None:
+def _fill_binomials(cx: float, cy: float, top: int, tables: Any, w: Any) -> None:
     """Write binomial(i, a) (-cx)^(i-a) to across[a, SIDE - 1 - i], that of cy to along[a, i]."""
     power_x = 1.0
     power_y = 1.0
@@ -254,7 +254,7 @@ def prepare_covariances(
     for i in range(count + 1, rows + 1):
         w.S[i, i] = 0.0
     used = _solve_rows(w.S, count, PANEL, PANEL, w.G, w.inverses, w.X)
-    _fill_powers(fit.cx, fit.cy, top, tables, w)
+    _fill_binomials(fit.cx, fit.cy, top, tables, w)
     if tangent:
         spread_out(w.c, top, w.table)
         for i in range(SIDE):

@@ -32,7 +32,7 @@ def weigh(to: Lanes, cloud: Rows, n: Any) -> float:
         near = to.builder.fcmp_ordered("<=", squared, one)
         to.store(to.builder.select(near, value, zero), cloud.at(WEIGHT, i))
         to.put(to.add(to.get(inside), to.builder.select(near, one, zero)), inside)
-    return to.lane(to.sums([to.get(inside)] * LANES), 0)
+    return to.lane(to.sums([to.get(inside)]), 0)
 
 
 @emit
@@ -58,8 +58,7 @@ def _turn_into(to: Lanes, cloud: Rows, n: Any, frame: Rows, sums: Rows) -> None:
         w = to.load(cloud.at(WEIGHT, i))
         for total, value in zip(totals, (to.constant(1.0), *local[:2]), strict=True):
             to.put(to.add(to.times(w, value), to.get(total)), total)
-    rest = [to.constant(0.0)] * (LANES - 3)
-    to.store(to.sums([*map(to.get, totals), *rest]), sums.at(0))
+    to.store_sums(totals, sums)
 
 
 @emit
