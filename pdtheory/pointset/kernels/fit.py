@@ -205,6 +205,8 @@ def fit_point(
         face(w.frame, reference[0], reference[1], reference[2])
     if refined:
         status |= _REFINED
+    if doubtful(degree, reached, w):
+        status |= _ILL
     return Fit(status, reached, degree, cx, cy, residual, pivot, inside)
 
 
@@ -218,8 +220,6 @@ def finish(fit: Fit, tangent: bool, w: Any) -> int:
     status = fit.status
     if fit.degree < fit.top:
         status |= _LOWERED | _ILL
-    if doubtful(fit.top, fit.degree, w):
-        status |= _ILL
     if fit.cx * fit.cx + fit.cy * fit.cy > ONE_SIDED * ONE_SIDED:
         status |= _ONE_SIDED
     return status

@@ -11,6 +11,7 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from functools import reduce
 from typing import Any
 
 from llvmlite import binding, ir
@@ -150,9 +151,25 @@ class Lanes:
         return self.builder.fdiv(a, b, flags=_FLAGS)
 
     def root(self, value: Any) -> Any:
-        """Square root of a number."""
-        sqrt = self.builder.module.declare_intrinsic("llvm.sqrt", [_REAL])
+        """Square root of a number, or of those in all lanes."""
+        name = "llvm.sqrt.f64" if value.type == _REAL else f"llvm.sqrt.v{LANES}f64"
+        kind = ir.FunctionType(value.type, [value.type])
+        sqrt = cgutils.get_or_insert_function(self.builder.module, kind, name)
         return self.builder.call(sqrt, [value])
+
+    def size(self, value: Any) -> Any:
+        """Absolute values."""
+        zero = self.constant(0.0)
+        negative = self.builder.fcmp_ordered("<", value, zero)
+        return self.builder.select(negative, self.subtract(zero, value), value)
+
+    def larger(self, a: Any, b: Any) -> Any:
+        """The larger of two numbers, or those in all lanes."""
+        return self.builder.select(self.builder.fcmp_ordered(">", a, b), a, b)
+
+    def largest(self, vector: Any) -> Any:
+        """The largest number in a vector."""
+        return reduce(self.larger, [self.lane(vector, number) for number in range(LANES)])
 
     def sums(self, vectors: Sequence[Any]) -> Any:
         """One vector with the sums over the lanes of each of up to LANES vectors, then zeros."""

@@ -8,9 +8,10 @@ from pdtheory.pointset.kernels.jit import Array, inner
 from pdtheory.pointset.kernels.lanes import LANES, Lanes, Rows, emit
 
 #: Rows of a cloud: coordinates relative to the query and squared distance, in units of the radius;
-#: weights; coordinates in the local frame; residuals; products; weights and last residuals of l1.
-DX, DY, DZ, SQUARED, WEIGHT, X, Y, Z, RESIDUAL, PRODUCT, REWEIGHT, BEFORE = range(12)
-CLOUD_ROWS = 12
+#: weights; coordinates in the local frame; residuals; products; and for l1 the heights, residuals,
+#: dual variables and weights.
+DX, DY, DZ, SQUARED, WEIGHT, X, Y, Z, RESIDUAL, PRODUCT, HEIGHT, GAP, DUAL, REWEIGHT = range(14)
+CLOUD_ROWS = 14
 #: Most points whose powers are kept at a time, so that these stay in the nearest cache, of which
 #: another process may use half.
 BLOCK = 128

@@ -43,6 +43,25 @@ def degree_start(top: int, degree: int) -> int:
 
 
 @inner
+def assemble(cloud: Array, weights: int, n: int, degree: int, w: Any) -> None:
+    """Factor the normal equations of a fit with the given row of weights."""
+    sum_moments(cloud, weights, n, 2 * degree, degree, w)
+    fill_gram(w.sums, w.heights, degree, w.ordered, w.G)
+    factor(w.G, (degree + 1) * (degree + 2) // 2, w.diagonal, w.pivots, w.inverses)
+
+
+@inner
+def solve(degree: int, most: int, w: Any) -> None:
+    """Write the coefficients up to the degree `most` to ``w.c``; those above it are zero."""
+    count = (degree + 1) * (degree + 2) // 2
+    for i in range(1, degree_start(degree, most)):
+        w.inverses[i] = 0.0
+    for i in range(1, count + 1):
+        w.y[i] = w.G[i, 0]
+    solve_lower(w.G, count, w.inverses, w.y, w.c)
+
+
+@inner
 def regress(cloud: Array, weights: int, n: int, degree: int, w: Any) -> tuple[int, float]:
     """Fit the heights with the given row of weights; the coefficients go to ``w.c``.
 
@@ -51,13 +70,10 @@ def regress(cloud: Array, weights: int, n: int, degree: int, w: Any) -> tuple[in
     (int, float)
         The degree reached and its smallest relative pivot.
     """
-    count = (degree + 1) * (degree + 2) // 2
-    sum_moments(cloud, weights, n, 2 * degree, degree, w)
-    fill_gram(w.sums, w.heights, degree, w.ordered, w.G)
-    factor(w.G, count, w.diagonal, w.pivots, w.inverses)
+    assemble(cloud, weights, n, degree, w)
     reached = -1
     worst = 1.0
-    start = count
+    start = degree_start(degree, 0)
     for d in range(degree + 1):
         low = 1.0
         for i in range(start, start + d + 1):
@@ -67,12 +83,7 @@ def regress(cloud: Array, weights: int, n: int, degree: int, w: Any) -> tuple[in
         worst = min(worst, low)
         reached = d
         start -= d + 2
-    first = degree_start(degree, reached)
-    for i in range(1, first):
-        w.inverses[i] = 0.0
-    for i in range(1, count + 1):
-        w.y[i] = w.G[i, 0]
-    solve_lower(w.G, count, w.inverses, w.y, w.c)
+    solve(degree, reached, w)
     return reached, worst
 
 
