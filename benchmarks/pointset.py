@@ -333,7 +333,7 @@ def stages() -> None:
             elif number == 8:
                 regression.misfit(cloud, n, degree, 1.0, w)
             elif number == 9:
-                tilting.shift(w.c, degree, 1e-9, 1e-9, w.table, w.middle)
+                tilting.shift(w.c, degree, 1e-9, 1e-9, w.table)
             elif number == 10:
                 chunk._write_phi(w.c, done, 0.8, 0.6, radius, tables, w, phi)
             else:

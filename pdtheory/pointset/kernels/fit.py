@@ -196,7 +196,7 @@ def fit_point(
         residual, refined = settle(cloud, WEIGHT, n, degree, weight, pivot, w)
         for i in range(len(w.c)):
             w.centred[i] = w.c[i]
-        shift(w.c, degree, cx, cy, w.table, w.middle)
+        shift(w.c, degree, cx, cy, w.table)
         if turn == turns or not tilt_matters(w.c, degree, trusted * residual, w.norms):
             break
         turn += 1

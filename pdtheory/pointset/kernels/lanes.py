@@ -171,6 +171,11 @@ class Lanes:
         """The largest number in a vector."""
         return reduce(self.larger, [self.lane(vector, number) for number in range(LANES)])
 
+    def next(self, vector: Any, behind: Any) -> Any:
+        """The lanes of a vector from the second on, then the first of another."""
+        order = ir.Constant(ir.VectorType(_INDEX, LANES), list(range(1, LANES + 1)))
+        return self.builder.shuffle_vector(vector, behind, order)
+
     def sums(self, vectors: Sequence[Any]) -> Any:
         """One vector with the sums over the lanes of each of up to LANES vectors, then zeros."""
         vectors = [*vectors, *[self.constant(0.0)] * (LANES - len(vectors))]

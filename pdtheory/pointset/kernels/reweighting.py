@@ -158,5 +158,5 @@ def fit_robustly(cloud: Array, n: int, fit: Fit, w: Any) -> Fit:
     for i in range(len(w.c)):
         w.c[i] = w.centred[i]
     residual = misfit(cloud, n, degree, weight, w)
-    shift(w.c, degree, fit.cx, fit.cy, w.table, w.middle)
+    shift(w.c, degree, fit.cx, fit.cy, w.table)
     return Fit(status, fit.degree, degree, fit.cx, fit.cy, residual, pivot, fit.neighbours)

@@ -17,16 +17,16 @@ from pdtheory.pointset.kernels.moments import BLOCK, CLOUD_ROWS, WIDE, cube_rows
 
 #: Sample intervals of the angles on the half circle.
 SAMPLES = 64
-#: Side of the tables of coefficients by powers of x (row) and y (column); above the largest degree.
+#: Side of the tables of coefficients, above the largest degree.
 SIDE = 16
-
-
 #: Cells on each side of the own one that a ball can touch: the cell is at least half a radius.
 REACH = 2
 #: Columns of cells that a ball can touch.
 COLUMNS = (2 * REACH + 1) ** 2
 #: Rows of a product of polynomials that are computed together.
 ROWS = 4
+#: Shape of a table of coefficients, with zeros before them.
+JET = (ROWS + SIDE, 2 * SIDE)
 #: Largest degree, for which all memory is laid out.
 MAX_DEGREE = 14
 _COUNT = (MAX_DEGREE + 1) * (MAX_DEGREE + 2) // 2
@@ -105,9 +105,9 @@ WORKSPACE = layout(
     v=(_COLUMNS,),
     step=(_COLUMNS,),
     horner=(_COLUMNS,),
-    table=(SIDE + 1, SIDE + LANES),
-    middle=(SIDE + 1, SIDE + LANES),
-    slope=(SIDE + 2 * ROWS, 2 * SIDE),
+    table=JET,
+    middle=JET,
+    slope=JET,
     norms=(SIDE,),
     frame=(3, 3),
     A=(3, 3),

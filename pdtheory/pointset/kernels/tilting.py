@@ -1,4 +1,8 @@
-"""Jets moved: the polynomial of a fit about another point, and in a turned frame."""
+"""Jets moved: the polynomial of a fit about another point, and in a turned frame.
+
+Here the coefficients stand in tables (JET) by degree d and power b of y, from row ROWS and column
+SIDE on; before them there are zeros, and behind the powers of each degree.
+"""
 
 from __future__ import annotations
 
@@ -15,46 +19,77 @@ from pdtheory.pointset.kernels.tables import ROWS, SIDE
 #: Effect of a remaining tilt that is tolerated, as a fraction of the residual and of the height.
 TILT_OF_RESIDUAL, TILT_OF_HEIGHT = 0.3, 1e-13
 
+_PARTS = range(0, SIDE, LANES)
+
 
 @emit
 def spread_out(to: Lanes, c: Rows, degree: Any, table: Rows) -> None:
-    """Write coefficients to a table by powers, with zeros one degree above them."""
-    above = to.plus(degree, 2)
-    with to.count(0, above) as a, to.count(0, above, LANES) as b:
-        to.store(to.constant(0.0), table.at(a, b))
-    row = to.variable(to.integer(1))
+    """Write coefficients to a table by degree, with zeros one degree above them."""
+    place = to.variable(to.integer(1))
+    for part in _PARTS:
+        to.store(to.constant(0.0), _entry(to, table, to.plus(degree, 1), part))
     with to.count(0, to.plus(degree, 1)) as lower:
         d = to.minus(degree, lower)
-        with to.count(0, to.plus(d, 1)) as b:
-            at = to.get(row)
-            to.put(to.get(c.at(at)), table.at(to.minus(d, b), b))
-            to.put(to.plus(at, 1), row)
+        at = to.get(place)
+        for part in _PARTS:
+            own = to.below(to.minus(to.plus(d, 1), part))
+            value = to.builder.select(own, to.load(c.at(to.plus(at, part))), to.constant(0.0))
+            to.store(value, _entry(to, table, d, part))
+        to.put(to.plus(at, d, 1), place)
 
 
 @emit
-def _shift_rows(to: Lanes, table: Rows, degree: Any, centre: Any) -> None:
-    """Replace the powers x^a of the rows by those of x - centre."""
-    by = to.spread(centre)
-    with to.count(0, to.plus(degree, 1), LANES) as part, to.count(0, degree) as low:
-        last = to.variable(to.load(table.at(degree, part)))
-        with to.count(0, to.minus(degree, low)) as step:
-            at = table.at(to.minus(to.plus(degree, -1), step), part)
-            to.put(to.subtract(to.load(at), to.times(by, to.get(last))), last)
-            to.store(to.get(last), at)
+def _gather_in(to: Lanes, table: Rows, degree: Any, c: Rows) -> None:
+    """Write a table back to the coefficients, and zeros behind them."""
+    place = to.variable(to.integer(1))
+    with to.count(0, to.plus(degree, 1)) as lower:
+        d = to.minus(degree, lower)
+        at = to.get(place)
+        for part in _PARTS:
+            # What goes beyond the degree is written over by the next one.
+            value = to.load(_entry(to, table, d, part))
+            to.store(value, c.at(to.plus(at, part)))
+        to.put(to.plus(at, d, 1), place)
 
 
 @emit
-def _transpose(to: Lanes, table: Rows, degree: Any, out: Rows) -> None:
-    """Write the transpose of a table, zeros above the degree."""
-    with to.count(0, to.plus(degree, 1)) as b:
-        with to.count(0, to.plus(degree, 1), LANES) as part:
-            to.store(to.constant(0.0), out.at(b, part))
-        with to.count(0, to.plus(to.minus(degree, b), 1)) as a:
-            to.put(to.get(table.at(a, b)), out.at(b, a))
+def _shift_table(to: Lanes, table: Rows, degree: Any, cx: Any, cy: Any) -> None:
+    """Replace the powers of x - cx by those of x, and the powers of y - cy by those of y.
+
+    Horner's scheme in x, for all powers of y at once, then in y along the powers of y: what stands
+    at (d, b) takes part in a round as long as there are enough powers left.
+    """
+    for centre, by_x in ((cx, True), (cy, False)):
+        by = to.spread(centre)
+        with to.count(0, degree) as low:
+            last = [to.variable(to.load(_entry(to, table, degree, part))) for part in _PARTS]
+            with to.count(0, to.minus(degree, low)) as step:
+                d = to.minus(to.plus(degree, -1), step)
+                above = [to.get(place) for place in last]
+                if not by_x:
+                    behind = [*above[1:], to.constant(0.0)]
+                    above = [to.next(u, v) for u, v in zip(above, behind, strict=True)]
+                for number, part in enumerate(_PARTS):
+                    at = _entry(to, table, d, part)
+                    old = to.load(at)
+                    new = to.subtract(old, to.times(by, above[number]))
+                    if by_x:
+                        own = to.below(to.minus(to.plus(d, 1), to.plus(low, part)))
+                        new = to.builder.select(own, new, old)
+                    else:
+                        done = to.below(to.minus(low, part))
+                        new = to.builder.select(done, old, new)
+                    to.store(new, at)
+                    to.put(new, last[number])
+
+
+def _entry(to: Lanes, table: Rows, d: Any, column: Any) -> Any:
+    """Address of an entry of a table."""
+    return table.at(to.plus(d, ROWS), to.plus(column, SIDE))
 
 
 @inner
-def shift(c: Array, degree: int, cx: float, cy: float, table: Array, turned: Array) -> None:
+def shift(c: Array, degree: int, cx: float, cy: float, table: Array) -> None:
     """Re-expand sum c_ab (x - cx)^a (y - cy)^b about the origin, in place and exactly.
 
     Parameters
@@ -65,18 +100,12 @@ def shift(c: Array, degree: int, cx: float, cy: float, table: Array, turned: Arr
         The degree.
     cx, cy : float
         The old centre.
-    table, turned : (SIDE, >= SIDE) float64
+    table : JET float64
         Scratch.
     """
     spread_out(c, degree, table)
-    _shift_rows(table, degree, cx)
-    _transpose(table, degree, turned)
-    _shift_rows(turned, degree, cy)
-    row = 1
-    for d in range(degree, -1, -1):
-        for b in range(d + 1):
-            c[row] = turned[b, d - b]
-            row += 1
+    _shift_table(table, degree, cx, cy)
+    _gather_in(table, degree, c)
 
 
 @inner
@@ -116,51 +145,45 @@ def add_product(
 ) -> None:
     """Add `factor` times the product of two polynomials, up to a degree, to a third.
 
-    Parameters
-    ----------
-    first : (SIDE, >= SIDE) float64
-        Coefficients by powers; those above the degree are not looked at.
-    second : (SIDE + 2 ROWS, 2 SIDE) float64
-        The same, SIDE columns further right and ROWS rows further down, with zeros before.
-    target : (SIDE, >= SIDE) float64
-        Receives the sum; entries above the degree are scratch.
+    The arrays are tables; `target` is to be another one, whose entries above the degree are
+    scratch.
     """
-    with to.count(0, to.plus(degree, 1), ROWS) as i:
-        left = to.minus(degree, i)
-        with to.count(0, to.plus(left, 1), LANES) as part:
+    with to.count(0, to.plus(degree, 1), ROWS) as d:
+        top = to.least(to.plus(d, ROWS - 1), degree)
+        with to.count(0, to.plus(top, 1), LANES) as part:
             sums = [to.variable(to.constant(0.0)) for _ in range(ROWS)]
-            with to.count(0, to.least(to.plus(i, ROWS), to.plus(degree, 1))) as i1:
-                most = to.minus(degree, to.greatest(i, i1))
-                with to.count(0, to.least(to.plus(most, 1), to.plus(part, LANES))) as j1:
-                    f = to.spread(to.get(first.at(i1, j1)))
-                    column = to.plus(SIDE, to.minus(part, j1))
-                    for offset, total in enumerate(sums):
-                        row = to.plus(ROWS + offset, to.minus(i, i1))
-                        term = to.times(f, to.load(second.at(row, column)))
-                        to.put(to.add(term, to.get(total)), total)
+            with (
+                to.count(0, to.plus(top, 1)) as d1,
+                to.count(0, to.least(to.plus(d1, 1), to.plus(part, LANES))) as b1,
+            ):
+                f = to.spread(to.get(_entry(to, first, d1, b1)))
+                column = to.minus(part, b1)
+                for offset, total in enumerate(sums):
+                    row = to.minus(to.plus(d, offset), d1)
+                    term = to.times(f, to.load(_entry(to, second, row, column)))
+                    to.put(to.add(term, to.get(total)), total)
             for offset, total in enumerate(sums):
-                at = target.at(to.plus(i, offset), part)
+                at = _entry(to, target, to.plus(d, offset), part)
                 value = to.times(to.get(total), to.spread(factor))
                 to.store(to.add(to.load(at), value), at)
 
 
 @emit
 def _fill_slope(to: Lanes, source: Rows, degree: Any, a: Any, b: Any, slope: Rows) -> None:
-    """Write the derivative of a jet in the direction (a, b), as `add_product` wants it.
+    """Write the derivative of a jet in the direction (a, b) to another table.
 
-    What it would need of the terms above the degree is zero.
+    The terms above the degree are taken to be zero.
     """
-    along = to.spread(b)
-    with to.count(0, to.plus(degree, 1)) as i:
-        times = to.builder.sitofp(to.plus(i, 1), to.real(0.0).type)
-        across = to.spread(to.builder.fmul(a, times))
-        powers = to.variable(to.times(along, to.sequence(1)))
-        with to.count(0, to.plus(degree, 1), LANES) as part:
-            by_x = to.times(across, to.load(source.at(to.plus(i, 1), part)))
-            by_y = to.times(to.get(powers), to.load(source.at(i, to.plus(part, 1))))
-            to.store(to.add(by_x, by_y), slope.at(to.plus(i, ROWS), to.plus(SIDE, part)))
-            to.put(to.add(to.get(powers), to.times(along, to.constant(float(LANES)))), powers)
-        to.put(to.real(0.0), slope.at(to.plus(i, ROWS), to.plus(SIDE, to.minus(degree, i))))
+    across, along = to.spread(a), to.spread(b)
+    with to.count(0, degree) as d:
+        count = to.spread(to.builder.sitofp(to.plus(d, 1), to.real(0.0).type))
+        terms = [to.load(_entry(to, source, to.plus(d, 1), part)) for part in _PARTS]
+        for part, term, behind in zip(_PARTS, terms, [*terms[1:], to.constant(0.0)], strict=True):
+            by_x = to.times(to.times(across, to.subtract(count, to.sequence(part))), term)
+            by_y = to.times(to.times(along, to.sequence(part + 1)), to.next(term, behind))
+            to.store(to.add(by_x, by_y), _entry(to, slope, d, part))
+    for part in _PARTS:
+        to.store(to.constant(0.0), _entry(to, slope, degree, part))
 
 
 @inner
@@ -174,8 +197,8 @@ def _turn(
     """
     _fill_slope(source, degree, a, b, slope)
     add_product(source, slope, degree, -step, target)
-    target[1, 0] -= step * a
-    target[0, 1] -= step * b
+    target[ROWS + 1, SIDE] -= step * a
+    target[ROWS + 1, SIDE + 1] -= step * b
 
 
 @inner
@@ -190,10 +213,8 @@ def untilt(c: Array, degree: int, frame: Array, table: Array, middle: Array, slo
         The jet.
     frame : (3, 3) float64
         The frame.
-    table, middle : (SIDE + 1, >= SIDE + LANES) float64
+    table, middle, slope : JET float64
         Scratch.
-    slope : (SIDE + 2 ROWS, 2 SIDE) float64
-        Scratch whose left half and first rows are zero.
     """
     last = degree_start(degree, 0)
     size = np.sqrt(c[last - 2] * c[last - 2] + c[last - 1] * c[last - 1])
@@ -207,11 +228,7 @@ def untilt(c: Array, degree: int, frame: Array, table: Array, middle: Array, slo
     spread_out(c, degree, middle)
     _turn(table, middle, degree, 0.5 * angle, a, b, slope)
     _turn(middle, table, degree, angle, a, b, slope)
-    row = 1
-    for d in range(degree, -1, -1):
-        for j in range(d + 1):
-            c[row] = table[d - j, j]
-            row += 1
+    _gather_in(table, degree, c)
     c[last - 2] = 0.0
     c[last - 1] = 0.0
 

@@ -257,11 +257,10 @@ def prepare_covariances(
     _fill_binomials(fit.cx, fit.cy, top, tables, w)
     if tangent:
         spread_out(w.c, top, w.table)
-        for i in range(SIDE):
-            for j in range(SIDE):
-                w.slope[ROWS + i, SIDE + j] = w.table[i, j]
+        for i in range(ROWS, ROWS + SIDE):
+            for j in range(SIDE, 2 * SIDE):
                 w.middle[i, j] = 0.0
-        add_product(w.table, w.slope, top + 1, 1.0, w.middle)
+        add_product(w.table, w.table, top + 1, 1.0, w.middle)
     total = 0.0
     squares = 0.0
     for i in range(n):
@@ -301,9 +300,8 @@ def order_covariance(
     count = degree_start(fit.top, 0)
     if tangent:
         for b in range(order + 1):
-            a = order - b
-            by_x = -0.5 * (a + 1) * w.middle[a + 1, b]
-            by_y = -0.5 * (b + 1) * w.middle[a, b + 1]
+            by_x = -0.5 * (order - b + 1) * w.middle[ROWS + order + 1, SIDE + b]
+            by_y = -0.5 * (b + 1) * w.middle[ROWS + order + 1, SIDE + b + 1]
             for i in range(count + 1):
                 w.U[1 + b, i] += by_x * w.gradient[0, i] + by_y * w.gradient[1, i]
     for b in range(1, order + 2):
