@@ -8,6 +8,8 @@ from pdtheory.pointset.kernels.jit import Array, inner
 
 #: Residual of an axis, as a fraction of the sum of the variances, that is rounding.
 CONVERGED = 1e-15
+#: Steps towards an axis that is a few degrees away; after two, a point in six is not there.
+STEPS = 3
 
 
 @inner
@@ -107,7 +109,7 @@ def guess_axes(S: Array, Q: Array) -> bool:
 
 
 @inner
-def follow_axes(S: Array, A: Array, Q: Array, steps: int) -> bool:
+def follow_axes(S: Array, A: Array, Q: Array) -> bool:
     """Find the axes of a matrix that are close to those in `Q`, to which they go.
 
     The normal is an eigenvector by Rayleigh quotient iteration, whose error is cubed in each step;
@@ -121,8 +123,6 @@ def follow_axes(S: Array, A: Array, Q: Array, steps: int) -> bool:
         Its diagonal receives the variances.
     Q : (3, 3) float64
         Orthogonal columns; receives the axes, by descending variance.
-    steps : int
-        Number of steps.
 
     Returns
     -------
@@ -144,7 +144,7 @@ def follow_axes(S: Array, A: Array, Q: Array, steps: int) -> bool:
     x = y = 0.0
     z = 1.0
     square = 1.0
-    for _ in range(steps):
+    for _ in range(STEPS):
         p = r00 - low
         q = r11 - low
         x = r01 * r12 - r02 * q

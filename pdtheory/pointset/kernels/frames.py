@@ -77,9 +77,8 @@ def principal_frame(
             for j in range(i, 3):
                 S[i, j] = S[j, i] = sums[k] * unit - (sums[1 + i] * unit) * (sums[1 + j] * unit)
                 k += 1
-        steps = 3 if turn == 0 else 2
         known = turn > 0 or guess_axes(S, Q)
-        if not (known and follow_axes(S, A, Q, steps)):
+        if not (known and follow_axes(S, A, Q)):
             sorted_axes(S, A, Q)
         if not A[1, 1] > COLLINEAR * A[0, 0]:
             return False

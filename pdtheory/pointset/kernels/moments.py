@@ -138,12 +138,13 @@ def _fill_powers(
         for row in range(WIDE):
             to.store(even, columns.at(row, i))
             even, odd = odd, to.times(even, square)
-        last = y
-        for digit in f"{WIDE:b}"[1:]:
-            last = to.times(last, last)
-            if digit == "1":
-                last = to.times(last, y)
-        to.store(last, columns.at(WIDE, i))
+        with to.builder.if_then(to.builder.icmp_signed(">=", top, to.integer(WIDE))):
+            last = y
+            for digit in f"{WIDE:b}"[1:]:
+                last = to.times(last, last)
+                if digit == "1":
+                    last = to.times(last, y)
+            to.store(last, columns.at(WIDE, i))
 
 
 def _raise_columns(to: Lanes, stop: Any, columns: Rows) -> None:
