@@ -199,17 +199,23 @@ def _scale(to: Lanes, gram: Rows, row: list[Any], corner: list[Any]) -> None:
 def _subtract(to: Lanes, gram: Rows, row: list[Any], below: Any) -> None:
     """Subtract the products of the rows of a panel from the rows up to `below`."""
     width = 2
-    with to.count(0, to.plus(below, 1), width * LANES) as k:
+    stop = to.plus(below, 1)
+    with to.count(0, stop, width * LANES) as k:
         columns = [to.plus(k, v * LANES) for v in range(width)]
         panel = [[to.load(gram.at(r, column)) for column in columns] for r in row]
-        with to.count(to.greatest(k, 1), to.plus(below, 1)) as i:
-            spread = [to.spread(to.get(gram.at(r, i))) for r in row]
-            for v, column in enumerate(columns):
-                at = gram.at(i, column)
-                value = to.load(at)
-                for f, line in zip(spread, panel, strict=True):
-                    value = to.subtract(value, to.times(f, line[v]))
-                to.store(value, at)
+        start = to.greatest(k, 1)
+        # Rows that end within the first vector, then those that go on.
+        for used in range(1, width + 1):
+            end = stop if used == width else to.least(to.plus(k, used * LANES), stop)
+            with to.count(start, end) as i:
+                spread = [to.spread(to.get(gram.at(r, i))) for r in row]
+                for v, column in enumerate(columns[:used]):
+                    at = gram.at(i, column)
+                    value = to.load(at)
+                    for f, line in zip(spread, panel, strict=True):
+                        value = to.subtract(value, to.times(f, line[v]))
+                    to.store(value, at)
+            start = end
 
 
 @emit
