@@ -7,7 +7,9 @@ run. Here the code of an inner function is only kept, to be linked to a kernel a
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import operator
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any, TypeVar
 
 from llvmlite.binding import Linkage
@@ -16,6 +18,8 @@ from numba.core.codegen import JITCodeLibrary
 from numba.core.registry import cpu_target
 
 F = TypeVar("F", bound=Callable[..., Any])
+
+_OPERATORS = frozenset(value for value in vars(operator).values() if callable(value))
 
 
 class _Unset:
@@ -89,6 +93,36 @@ class Whole(JITCodeLibrary):
         super().finalize()
 
 
+_signatures: dict[Any, Any] = {}
+
+
+@contextmanager
+def _known_operators() -> Iterator[None]:
+    """Let Numba look up once, not at every place, what an operator makes of its arguments."""
+    context = cpu_target.typing_context
+    if "resolve_function_type" in vars(context):
+        yield
+        return
+    find = context.resolve_function_type
+
+    def find_once(function: Any, arguments: Any, keywords: Any) -> Any:
+        if keywords or getattr(function, "typing_key", function) not in _OPERATORS:
+            return find(function, arguments, keywords)
+        key = function, arguments
+        if key not in _signatures:
+            found = find(*key, keywords)
+            if found is None:
+                return None
+            _signatures[key] = found
+        return _signatures[key]
+
+    context.resolve_function_type = find_once
+    try:
+        yield
+    finally:
+        del context.resolve_function_type
+
+
 def compile_as(kind: type[JITCodeLibrary], function: F) -> F:
     """Let a compiled function be a part of those that call it, or the whole.
 
@@ -102,7 +136,8 @@ def compile_as(kind: type[JITCodeLibrary], function: F) -> F:
         before = codegen._library_class
         codegen._library_class = kind
         try:
-            return compile_it(signature)
+            with _known_operators():
+                return compile_it(signature)
         finally:
             codegen._library_class = before
 
