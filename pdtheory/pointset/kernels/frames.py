@@ -40,7 +40,15 @@ def _sum_spread(to: Lanes, cloud: Rows, n: Any, plane: Rows, out: Rows) -> None:
 
 @inner
 def principal_frame(
-    cloud: Array, n: int, S: Array, A: Array, Q: Array, plane: Array, sums: Array, frame: Array
+    cloud: Array,
+    n: int,
+    S: Array,
+    A: Array,
+    Q: Array,
+    plane: Array,
+    sums: Array,
+    weights: Array,
+    frame: Array,
 ) -> bool:
     """Write the robust principal axes of n weighted points, centred on their mean.
 
@@ -57,6 +65,8 @@ def principal_frame(
         Scratch.
     plane, sums : (>= 5,), (>= 10 + LANES,) float64
         Scratch.
+    weights : (>= 4,) float64
+        Receives the sums of w, w x, w y and w z.
     frame : (3, 3) float64
         Rows t1 (largest spread), t2, n: right-handed, n of either sign.
 
@@ -71,6 +81,9 @@ def principal_frame(
         _sum_spread(cloud, n, plane, sums)
         if not sums[0] > 0.0:
             return False
+        if turn == 0:
+            for i in range(4):
+                weights[i] = sums[i]
         unit = 1.0 / sums[0]
         k = 4
         for i in range(3):

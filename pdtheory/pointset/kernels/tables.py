@@ -114,6 +114,7 @@ WORKSPACE = layout(
     B=(3, 3),
     Q=(3, 3),
     plane=(LANES,),
+    weights=(LANES,),
     spread=(16 + LANES,),
     V=(SIDE + 1, _COLUMNS),
     Y=(_ROWS, 2 * SIDE),

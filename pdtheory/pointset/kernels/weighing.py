@@ -46,28 +46,25 @@ def _square_in_plane(to: Lanes, cloud: Rows, n: Any, frame: Rows) -> None:
 
 
 @emit
-def _turn_into(to: Lanes, cloud: Rows, n: Any, frame: Rows, sums: Rows) -> None:
-    """Write the coordinates in the frame; sum w, w x and w y."""
-    axes = [[to.spread(to.get(frame.at(r, k))) for k in range(3)] for r in range(3)]
-    totals = [to.variable(to.constant(0.0)) for _ in range(3)]
+def _sum_weights(to: Lanes, cloud: Rows, n: Any, out: Rows) -> None:
+    """Sum w, w x, w y and w z."""
+    totals = [to.variable(to.constant(0.0)) for _ in range(4)]
     with to.count(0, n, LANES) as i:
-        p = [to.load(cloud.at(row, i)) for row in (DX, DY, DZ)]
-        local = [_dot(to, p, axis) for axis in axes]
-        for value, row in zip(local, (X, Y, Z), strict=True):
-            to.store(value, cloud.at(row, i))
-        w = to.load(cloud.at(WEIGHT, i))
-        for total, value in zip(totals, (to.constant(1.0), *local[:2]), strict=True):
+        w, *p = (to.load(cloud.at(row, i)) for row in (WEIGHT, DX, DY, DZ))
+        for total, value in zip(totals, (to.constant(1.0), *p), strict=True):
             to.put(to.add(to.times(w, value), to.get(total)), total)
-    to.store_sums(totals, sums)
+    to.store_sums(totals, out)
 
 
 @emit
-def _centre(to: Lanes, cloud: Rows, n: Any, cx: Any, cy: Any) -> None:
-    """Subtract the centre from x and y."""
+def _turn_into(to: Lanes, cloud: Rows, n: Any, frame: Rows, cx: Any, cy: Any) -> None:
+    """Write the coordinates in the frame, x and y about a centre."""
+    axes = [[to.spread(to.get(frame.at(r, k))) for k in range(3)] for r in range(3)]
+    centre = (to.spread(cx), to.spread(cy), to.constant(0.0))
     with to.count(0, n, LANES) as i:
-        for row, c in ((X, cx), (Y, cy)):
-            at = cloud.at(row, i)
-            to.store(to.subtract(to.load(at), to.spread(c)), at)
+        p = [to.load(cloud.at(row, i)) for row in (DX, DY, DZ)]
+        for row, axis, middle in zip((X, Y, Z), axes, centre, strict=True):
+            to.store(to.subtract(_dot(to, p, axis), middle), cloud.at(row, i))
 
 
 def _dot(to: Lanes, p: list[Any], axis: list[Any]) -> Any:
@@ -81,6 +78,8 @@ def _dot(to: Lanes, p: list[Any], axis: list[Any]) -> Any:
 def project(cloud: Array, points: int, n: int, planar: bool, w: Any) -> tuple[float, float, float]:
     """Write local coordinates, x and y centred on their weighted mean, and the weights if planar.
 
+    ``w.weights`` holds the sums of w, w x, w y and w z in the axes of the world.
+
     Returns
     -------
     (float, float, float)
@@ -91,9 +90,14 @@ def project(cloud: Array, points: int, n: int, planar: bool, w: Any) -> tuple[fl
         for i in range(points, n):
             cloud[SQUARED, i] = OUTSIDE
         weigh(cloud, n)
-    _turn_into(cloud, n, w.frame, w.spread)
-    total = w.spread[0]
-    cx = w.spread[1] / total
-    cy = w.spread[2] / total
-    _centre(cloud, n, cx, cy)
+        _sum_weights(cloud, n, w.weights)
+    total = w.weights[0]
+    cx = 0.0
+    cy = 0.0
+    for i in range(3):
+        cx += w.weights[1 + i] * w.frame[0, i]
+        cy += w.weights[1 + i] * w.frame[1, i]
+    cx /= total
+    cy /= total
+    _turn_into(cloud, n, w.frame, cx, cy)
     return cx, cy, total
