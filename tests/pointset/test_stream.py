@@ -45,7 +45,9 @@ def test_same_bits_as_in_memory(points, tmp_path):
     _compare(tmp_path / "run", estimate_directions(points, **HOW))
 
 
-def test_resumed_run_has_the_same_bits(points, tmp_path):
+def test_resumed_run_has_the_same_bits(points, tmp_path, monkeypatch):
+    # Far more parts than are under way at a time, all of which may be done before the next report.
+    monkeypatch.setattr(stream, "PART", 100)
     folder = tmp_path / "run"
 
     def stop(fraction, text):
@@ -53,9 +55,9 @@ def test_resumed_run_has_the_same_bits(points, tmp_path):
             raise Cancelled("stopped")
 
     with pytest.raises(Cancelled):
-        estimate_to_disk(points, folder, progress=stop, **HOW)
+        estimate_to_disk(points, folder, progress=stop, threads=2, **HOW)
     names = sorted(path.name for path in folder.glob("part-*.npz"))
-    assert 0 < len(names) < 5
+    assert 0 < len(names) < 30
     assert not list(folder.glob(".*"))
     with pytest.raises(FileFormatError, match="unfinished"):
         list(load_parts(folder))
