@@ -71,14 +71,11 @@ def _survey(to: Lanes, cloud: Rows, n: Any, smooth: Any, out: Rows) -> None:
     totals = [to.variable(zero) for _ in STEPS]
     limit = to.variable(zero)
     with to.count(0, n, LANES) as i:
-        w, r, y, weight, z, left = (
-            to.load(cloud.at(row, i)) for row in (WEIGHT, GAP, DUAL, REWEIGHT, Z, RESIDUAL)
-        )
-        move = to.subtract(left, z)
+        w, r, y = (to.load(cloud.at(row, i)) for row in (WEIGHT, GAP, DUAL))
+        move, turn = _changes(to, cloud, i, y, scale)
         for step, total in zip(STEPS, totals, strict=True):
             size = to.size(to.add(to.times(move, to.constant(step)), r))
             to.put(to.add(to.times(w, size), to.get(total)), total)
-        turn = to.subtract(to.times(to.times(weight, left), scale), y)
         ahead = to.builder.fcmp_ordered(">", turn, zero)
         way = to.builder.select(ahead, to.subtract(w, y), to.add(w, y))
         part = to.divide(to.size(turn), to.add(way, tiny))
@@ -93,12 +90,17 @@ def _advance(to: Lanes, cloud: Rows, n: Any, smooth: Any, step: Any, turn: Any) 
     by, part = to.spread(step), to.spread(turn)
     scale = to.spread(to.builder.fdiv(to.real(1.0), smooth))
     with to.count(0, n, LANES) as i:
-        r, y, weight, z, left = (
-            to.load(cloud.at(row, i)) for row in (GAP, DUAL, REWEIGHT, Z, RESIDUAL)
-        )
-        to.store(to.add(to.times(to.subtract(left, z), by), r), cloud.at(GAP, i))
-        whole = to.subtract(to.times(to.times(weight, left), scale), y)
+        r, y = (to.load(cloud.at(row, i)) for row in (GAP, DUAL))
+        move, whole = _changes(to, cloud, i, y, scale)
+        to.store(to.add(to.times(move, by), r), cloud.at(GAP, i))
         to.store(to.add(to.times(whole, part), y), cloud.at(DUAL, i))
+
+
+def _changes(to: Lanes, cloud: Rows, i: Any, y: Any, scale: Any) -> tuple[Any, Any]:
+    """What a whole step changes in r and y; `scale` is 1 / s."""
+    weight, z, left = (to.load(cloud.at(row, i)) for row in (REWEIGHT, Z, RESIDUAL))
+    target = to.times(to.times(weight, left), scale)
+    return to.subtract(left, z), to.subtract(target, y)
 
 
 @inner
