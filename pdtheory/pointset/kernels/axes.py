@@ -86,7 +86,8 @@ def guess_axes(S: Array, Q: Array) -> bool:
     elif yy > zz:
         x, y, z = xy, yy, yz
     square = x * x + y * y + z * z
-    total = (S[0, 0] + S[1, 1] + S[2, 2]) ** 2
+    total = S[0, 0] + S[1, 1] + S[2, 2]
+    total *= total
     if not square > 1e-16 * total * total:
         return False
     size = 1.0 / np.sqrt(square)

@@ -145,7 +145,7 @@ def _write_covariances(
         if order > fit.degree:
             break
         order_covariance(order, fit, tangent, noise, w, out, entry)
-        entry += (order + 1) ** 2
+        entry += (order + 1) * (order + 1)
     return noise
 
 

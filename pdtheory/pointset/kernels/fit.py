@@ -112,11 +112,12 @@ def choose_frame(cloud: Array, n: int, reference: Array, settings: Settings, w: 
     if not principal_frame(cloud, n, w.B, w.A, w.Q, w.plane, w.spread, w.weights, frame):
         return _DEGENERATE
     if settings.frame == FRAME_GIVEN:
+        side = square = 0.0
         for i in range(3):
             frame[2, i] = reference[i]
-        side = frame[0, 0] * reference[0] + frame[0, 1] * reference[1] + frame[0, 2] * reference[2]
-        size = reference[0] ** 2 + reference[1] ** 2 + reference[2] ** 2
-        if side * side > 0.5 * size:
+            side += frame[0, i] * reference[i]
+            square += reference[i] * reference[i]
+        if side * side > 0.5 * square:
             # t1 would nearly vanish in projection; any other axis serves as well.
             for i in range(3):
                 frame[0, i] = frame[1, i]
