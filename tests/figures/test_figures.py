@@ -135,12 +135,15 @@ def test_unknown_figures_are_refused(tmp_path: Path) -> None:
 
 
 @pytest.mark.blender
-def test_a_picture_shows_surface_and_strokes(tmp_path: Path) -> None:
+def test_a_picture_shows_surface_and_strokes(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
     pytest.importorskip("bpy")
     plt = pytest.importorskip("matplotlib.pyplot")
     figure = catalogue.get("saddles")
     outcome = figure.compute(job())
     paths = figure.draw(job(), outcome, tmp_path)
+    assert capfd.readouterr().out == ""  # nothing of Blender's log
     assert [path.name for path in paths] == ["saddles.png", "saddles-1.png", "saddles-2.png"]
     monkey = plt.imread(paths[1])[..., :3]
     red, green, blue = monkey[..., 0], monkey[..., 1], monkey[..., 2]

@@ -135,6 +135,7 @@ def render(panel: Panel, path: Path, size: tuple[int, int], samples: int) -> Non
     """
 
     from pdtheory.blender.needles import order_material
+    from pdtheory.blender.prints import no_prints
     from pdtheory.blender.scene import new_file, render_picture, set_stage
     from pdtheory.blender.surface import add_surface
     from pdtheory.drawing.view import View
@@ -157,7 +158,8 @@ def render(panel: Panel, path: Path, size: tuple[int, int], samples: int) -> Non
     corners = panel.surface.points if panel.focus is None else panel.focus
     view = View(up=panel.up, azimuth=panel.azimuth, elevation=panel.elevation)
     set_stage(scene, corners, view, ground=panel.ground)
-    render_picture(scene, path, samples=samples)
+    with no_prints():
+        render_picture(scene, path, samples=samples)
 
 
 def _split(
