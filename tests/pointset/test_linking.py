@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import operator
+import subprocess
+import sys
 from typing import Any
 
 import numba
@@ -52,3 +54,44 @@ def test_numba_is_left_as_it_was():
         run(2.0)
     assert "resolve_function_type" not in vars(CONTEXT)
     assert cpu_target.target_context.codegen()._library_class is library
+
+
+def test_threads_that_compile_leave_numba_as_it_was(tmp_path):
+    """Some kernels are first called by several threads; other compilers work in the meantime."""
+    script = """
+import sys
+import threading
+
+import numba
+import numpy as np
+from numba.core.codegen import JITCodeLibrary
+from numba.core.registry import cpu_target
+
+from pdtheory.pointset.kernels.jit import kernel
+
+sys.setswitchinterval(1e-5)
+codegen = cpu_target.target_context.codegen()
+
+
+def compile_ours():
+    kernel(lambda x: x + 1.0)(2.0)
+
+
+def compile_theirs():
+    theirs = numba.njit(lambda x: x * 3.0)
+    theirs(2.0)
+    kinds.add(type(theirs.overloads[theirs.signatures[0]].library))
+
+
+kinds = set()
+threads = [threading.Thread(target=f) for f in 6 * [compile_ours, compile_theirs]]
+for thread in threads:
+    thread.start()
+for thread in threads:
+    thread.join()
+print(codegen._library_class is JITCodeLibrary, kinds == {JITCodeLibrary})
+"""
+    file = tmp_path / "script.py"
+    file.write_text(script)
+    done = subprocess.run([sys.executable, file], capture_output=True, text=True, check=True)
+    assert done.stdout.split() == ["True", "True"]

@@ -15,6 +15,7 @@ from typing import Any, TypeVar
 from llvmlite.binding import Linkage
 from numba import types
 from numba.core.codegen import JITCodeLibrary
+from numba.core.compiler_lock import global_compiler_lock
 from numba.core.registry import cpu_target
 
 F = TypeVar("F", bound=Callable[..., Any])
@@ -133,13 +134,15 @@ def compile_as(kind: type[JITCodeLibrary], function: F) -> F:
     codegen = cpu_target.target_context.codegen()
 
     def compile_kind(signature: Any) -> Any:
-        before = codegen._library_class
-        codegen._library_class = kind
-        try:
-            with _known_operators():
-                return compile_it(signature)
-        finally:
-            codegen._library_class = before
+        # Other threads that compile must not see the change.
+        with global_compiler_lock:
+            before = codegen._library_class
+            codegen._library_class = kind
+            try:
+                with _known_operators():
+                    return compile_it(signature)
+            finally:
+                codegen._library_class = before
 
     def find_plain(arguments: Any, keywords: Any) -> Any:
         plain = {name: types.unliteral(kind) for name, kind in keywords.items()}
