@@ -215,8 +215,8 @@ def fit_chunk(
     Returns
     -------
     int
-        Points done; if there are more and `stop` is not set, minus the capacity that the next one
-        needs.
+        Points done; or -1 - q if `cloud` is too small for point q: the capacity it needs is among
+        its numbers, as its neighbours.
     """
     runs = w.runs
     last = w.cells[0]

@@ -149,7 +149,6 @@ def _scale_term(phi: Any, column: int, order: int, unit: float, bench: Any) -> t
 def _bracket(
     start: int,
     end: int,
-    j: int,
     order: int,
     column: int,
     traces: Traces,
@@ -202,7 +201,6 @@ def _bracket(
 def _store(
     start: int,
     end: int,
-    j: int,
     order: int,
     entry: int,
     factorial: float,
@@ -302,8 +300,6 @@ def find_directions(
             total = _bracket(start, end, j, order, column, traces, slots, out, tables, bench)
             polish(bench.table, order, total)
             factorial = tables.factorial[order]
-            row = _store(
-                start, end, j, order, entry, factorial, traces, slots, out, bench, row, rows
-            )
+            row = _store(start, end, order, entry, factorial, traces, slots, out, bench, row, rows)
         entry += (order + 1) * (order + 1)
     return row
