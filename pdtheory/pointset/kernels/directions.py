@@ -149,6 +149,7 @@ def _scale_term(phi: Any, column: int, order: int, unit: float, bench: Any) -> t
 def _bracket(
     start: int,
     end: int,
+    j: int,
     order: int,
     column: int,
     traces: Traces,
