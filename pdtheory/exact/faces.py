@@ -135,7 +135,8 @@ class Face(ABC):
         angle
             Angle in radians, from the old t1 to the new one; exact or symbolic.
         cosine, sine
-            The angle by a point of the unit circle instead, such as (3/5, 4/5): stays rational.
+            The angle by a point of the unit circle instead. A rational one, such as
+            ``Rational(3, 5)`` and ``Rational(4, 5)``, keeps everything rational.
 
         Raises
         ------
