@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from pathlib import Path
 
 from pdtheory.atomic import atomic_path
-from pdtheory.errors import FileAccessError, FileFormatError, InputError
+from pdtheory.errors import FileFormatError, InputError
 from pdtheory.io.ply import write_ply
 from pdtheory.io.vtp import write_vtp
 from pdtheory.pointset.cloud import PointCloud
@@ -79,7 +78,7 @@ def write_field(field: DirectionField, path: str | os.PathLike[str]) -> None:
     if suffix == ".npz":
         field.save(target)
         return
-    with _writing(target) as temporary:
+    with atomic_path(target) as temporary:
         writers[suffix](field, temporary)
 
 
@@ -112,7 +111,7 @@ def write_cloud(cloud: PointCloud, path: str | os.PathLike[str]) -> None:
     columns: Columns = dict(zip("xyz", cloud.points.T, strict=True))
     if cloud.normals is not None:
         columns |= dict(zip(("nx", "ny", "nz"), cloud.normals.T, strict=True))
-    with _writing(target) as temporary:
+    with atomic_path(target) as temporary:
         if suffix == ".ply":
             write_ply(temporary, {"vertex": columns}, faces=cloud.faces)
         elif suffix in (".xyz", ".txt", ".csv"):
@@ -134,18 +133,6 @@ def _suffix(target: Path, known: tuple[str, ...]) -> str:
             f"{', '.join(known)}."
         )
     return suffix
-
-
-@contextmanager
-def _writing(target: Path) -> Iterator[Path]:
-    """Like :func:`atomic_path`, and tells a full disk from a defect."""
-    with atomic_path(target) as temporary:
-        try:
-            yield temporary
-        except FileAccessError:
-            raise
-        except OSError as error:
-            raise FileAccessError(f"cannot write {target}: {error.strerror or error}.") from error
 
 
 def _field_to_ply(field: DirectionField, path: Path) -> None:
