@@ -57,8 +57,11 @@ def save_npz(
     for order, rows in field.directions.items():
         for name in _ORDER_ARRAYS:
             arrays[f"order{order}_{name}"] = getattr(rows, name)
-    with atomic_path(path) as temporary, temporary.open("wb") as stream:
-        np.savez(stream, **arrays, **more)
+    # np.savez does the same, but on a full disk prints a second error as it is thrown away.
+    with atomic_path(path) as temporary, zipfile.ZipFile(temporary, "w") as archive:
+        for name, values in (arrays | more).items():
+            with archive.open(f"{name}.npy", "w", force_zip64=True) as stream:
+                np.lib.format.write_array(stream, np.asanyarray(values), allow_pickle=False)
 
 
 def load_npz(path: str | os.PathLike[str], names: tuple[str, ...]) -> dict[str, Any]:
@@ -120,17 +123,20 @@ def read_array(path: str | os.PathLike[str], name: str) -> npt.NDArray[Any]:
 def _opened(source: Path) -> Iterator[Any]:
     """Open an NPZ file, and say of everything that goes wrong with it what it means."""
     try:
-        with np.load(source, allow_pickle=False) as data:
-            if not isinstance(data, np.lib.npyio.NpzFile):
-                raise FileFormatError(f"{source} is not a direction field of pdtheory.")
+        loaded = np.load(source, allow_pickle=False)
+        if not isinstance(loaded, np.lib.npyio.NpzFile):
+            raise FileFormatError(f"{source} is not a direction field of pdtheory.")
+        with loaded as data:
             yield data
+    except (FileFormatError, MemoryError):
+        raise
     except FileNotFoundError as error:
         raise FileAccessError(f"no such file: {source}.") from error
     except OSError as error:
         raise FileAccessError(f"cannot read {source}: {error.strerror or error}.") from error
-    except (zipfile.BadZipFile, EOFError, KeyError, ValueError) as error:
-        if isinstance(error, FileFormatError):
-            raise
+    except Exception as error:
+        # The readers of zip archives and of array headers raise a dozen unrelated types.
+        reason = " ".join(str(error).split())
         raise FileFormatError(
-            f"{source} is not a direction field of pdtheory, or it is damaged ({error})."
+            f"{source} is not a direction field of pdtheory, or it is damaged ({reason})."
         ) from error

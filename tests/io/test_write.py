@@ -4,7 +4,11 @@ from __future__ import annotations
 
 import base64
 import csv
+import gc
+import re
 import xml.etree.ElementTree as ET
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import fields
 from pathlib import Path
 
@@ -195,15 +199,86 @@ def test_refusals(field: DirectionField, tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_full_disk_leaves_nothing_half_written(
-    field: DirectionField, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def full(*_: object) -> None:
-        raise OSError(28, "No space left on device")
+@contextmanager
+def room_for(size: int) -> Iterator[None]:
+    """Let no file grow beyond a size, as on a disk that fills up."""
+    resource = pytest.importorskip("resource")
+    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, hard))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
 
-    (tmp_path / "f.vtp").write_text("old")
-    monkeypatch.setattr("pdtheory.io.write.write_vtp", full)
-    with pytest.raises(FileAccessError, match="No space left"):
-        write_field(field, tmp_path / "f.vtp")
-    assert (tmp_path / "f.vtp").read_text() == "old"
-    assert [path.name for path in tmp_path.iterdir()] == ["f.vtp"]
+
+@pytest.mark.filterwarnings("error::pytest.PytestUnraisableExceptionWarning")
+@pytest.mark.parametrize("suffix", ["npz", "ply", "vtp", "csv"])
+@pytest.mark.parametrize("room", [0, 600])
+def test_a_full_disk_leaves_what_was_there(
+    field: DirectionField, tmp_path: Path, suffix: str, room: int
+) -> None:
+    target = tmp_path / f"f.{suffix}"
+    target.write_text("old")
+    with (
+        room_for(room),
+        pytest.raises(FileAccessError, match=re.escape(f"cannot write {target}: ")),
+    ):
+        write_field(field, target)
+    gc.collect()
+    assert target.read_text() == "old"
+    assert list(tmp_path.iterdir()) == [target]
+
+
+def test_a_full_disk_has_no_room_for_plots_either(field: DirectionField, tmp_path: Path) -> None:
+    target = tmp_path / "point.png"
+    with room_for(600), pytest.raises(FileAccessError, match=re.escape(f"cannot write {target}: ")):
+        field.at(0).plot(target)
+    assert not list(tmp_path.iterdir())
+
+
+def test_an_archive_is_that_of_numpy(field: DirectionField, tmp_path: Path) -> None:
+    write_field(field, tmp_path / "f.npz")
+    with np.load(tmp_path / "f.npz") as data:
+        np.savez(tmp_path / "g.npz", **data)
+    ours, theirs = ((tmp_path / name).stat().st_size for name in ("f.npz", "g.npz"))
+    assert ours == theirs
+
+
+def test_damaged_npz_files_get_one_sentence(field: DirectionField, tmp_path: Path) -> None:
+    whole, bad = tmp_path / "f.npz", tmp_path / "bad.npz"
+    write_field(field, whole)
+    content = np.frombuffer(whole.read_bytes(), np.uint8)
+    rng = np.random.default_rng(2)
+    sentences = []
+    for _ in range(300):
+        flipped = content.copy()
+        flipped[rng.integers(len(content), size=3)] ^= rng.integers(1, 256, 3, dtype=np.uint8)
+        bad.write_bytes(flipped.tobytes())
+        try:
+            read_field(bad)
+        except (FileFormatError, FileAccessError) as error:
+            sentences.append(str(error))
+    assert len(sentences) > 200
+    assert not any("\n" in sentence for sentence in sentences)
+
+
+def test_other_arrays_under_the_name_of_a_field_are_refused(
+    field: DirectionField, tmp_path: Path
+) -> None:
+    path = tmp_path / "f.npz"
+    with path.open("wb") as stream:
+        np.save(stream, np.arange(3.0))
+    with pytest.raises(FileFormatError, match="is not a direction field of pdtheory"):
+        read_field(path)
+    write_field(field, path)
+    with np.load(path) as data:
+        arrays = dict(data)
+    for wrong in (
+        {"schema": np.arange(2)},
+        {"schema": np.array("one")},
+        {"orders": np.array(2)},
+        {"orders": np.ones((2, 2))},
+    ):
+        np.savez(path, **(arrays | wrong))
+        with pytest.raises(FileFormatError, match="is not a direction field of pdtheory"):
+            read_field(path)
