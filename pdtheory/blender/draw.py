@@ -10,7 +10,9 @@ import os
 import pickle
 import subprocess
 import sys
+import tempfile
 from collections.abc import Callable, Iterable
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import BinaryIO, Final, cast
@@ -133,8 +135,14 @@ def draw_field(
         largest_uncertainty=largest_uncertainty,
     )
     job = _job(field, cloud, Path(output), choice, (up, azimuth, elevation), size, rays)
-    with atomic_path(output) as temporary:
-        _run(job, temporary, progress or (lambda fraction, text: None))
+    with (
+        atomic_path(output) as temporary,
+        # Blender leaves files of its own beside the one it saves.
+        tempfile.TemporaryDirectory(prefix=".", dir=temporary.parent) as folder,
+    ):
+        drawn = Path(folder) / job.target
+        _run(job, drawn, progress or (lambda fraction, text: None))
+        drawn.replace(temporary)
 
 
 def _job(
@@ -191,8 +199,9 @@ def _run(job: DrawingJob, path: Path, progress: Progress) -> None:
         worker.kill()
         worker.wait()
         for pipe in (worker.stdin, worker.stdout):
-            if pipe is not None:
-                pipe.close()
+            # Closing sends what is left, which a dead process does not take.
+            with suppress(OSError):
+                cast(BinaryIO, pipe).close()
 
 
 def _converse(worker: subprocess.Popen[bytes], job: DrawingJob, progress: Progress) -> bool:
@@ -201,7 +210,7 @@ def _converse(worker: subprocess.Popen[bytes], job: DrawingJob, progress: Progre
     try:
         pickle.dump(job, asked, protocol=pickle.HIGHEST_PROTOCOL)
         asked.flush()
-    except BrokenPipeError:
+    except OSError:
         # It ended before it listened; what it said, if anything, follows.
         pass
     while True:

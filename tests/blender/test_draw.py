@@ -9,6 +9,7 @@ import time
 
 import numpy as np
 import pytest
+from blender_fields import torus
 
 from pdtheory.blender import draw_field
 from pdtheory.errors import Cancelled, FileAccessError, InputError, MissingDependencyError
@@ -83,7 +84,9 @@ def test_blend_file_holds_surface_and_strokes(tmp_path, torus_field, scene):
     import bpy
 
     output = tmp_path / "torus.blend"
-    draw_field(torus_field[1], torus_field[0], output, kind="both")
+    for _ in range(2):
+        draw_field(torus_field[1], torus_field[0], output, kind="both")
+        assert list(tmp_path.iterdir()) == [output]
     bpy.ops.wm.open_mainfile(filepath=str(output))
     strokes = bpy.data.objects["Principal directions"]
     assert strokes.parent.name == "torus"
@@ -139,12 +142,13 @@ def test_missing_folder_is_refused(tmp_path, torus_field):
 
 
 @pytest.mark.blender
-def test_cancelling_leaves_what_was_there(tmp_path, torus_field):
-    output = tmp_path / "torus.png"
+@pytest.mark.parametrize(("suffix", "moment"), [(".png", "rendering"), (".blend", "saving")])
+def test_cancelling_leaves_what_was_there(tmp_path, torus_field, suffix, moment):
+    output = tmp_path / f"torus{suffix}"
     output.write_bytes(b"before")
 
     def cancel(fraction, text):
-        if "rendering" in text:
+        if moment in text:
             raise Cancelled("stopped on request.")
 
     with pytest.raises(Cancelled):
@@ -212,3 +216,19 @@ def test_a_crash_of_blender_is_a_sentence(tmp_path, torus_field, monkeypatch):
     monkeypatch.setenv("PYTHONPATH", str(tmp_path))
     with pytest.raises(ComputationError, match="exit code"):
         draw_field(torus_field[1], torus_field[0], tmp_path / "picture.png")
+
+
+def test_a_process_that_ends_before_it_listens_is_a_sentence(tmp_path, monkeypatch):
+    from pdtheory.errors import ComputationError
+
+    class Ended(subprocess.Popen):
+        def __init__(self, command, **rest):
+            super().__init__([sys.executable, "-c", "raise SystemExit(3)"], **rest)
+            self.wait()
+
+    monkeypatch.setattr(subprocess, "Popen", Ended)
+    # Large enough that Python still holds a part of it when the writing has failed.
+    _, field = torus(count=(100, 50))
+    with pytest.raises(ComputationError, match="exit code 3"):
+        draw_field(field, None, tmp_path / "picture.png")
+    assert not list(tmp_path.iterdir())
