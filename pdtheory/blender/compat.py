@@ -66,17 +66,14 @@ def get_input(modifier: Any, name: str) -> Any:
 
 
 def _menu_items(tree: Any, name: str) -> dict[str, int]:
-    """Return the number of each item of a menu input, from the switch the input feeds."""
+    """Return the number of each item of a menu input, from the switch the input feeds.
+
+    Items are numbered as they were created, which is their position as long as none is removed.
+    """
     for link in tree.links:
         if link.from_socket.name == name and link.to_node.bl_idname == "GeometryNodeMenuSwitch":
-            items = link.to_node.enum_items
-            return {item.name: _menu_value(items, i) for i, item in enumerate(items)}
+            return {item.name: i for i, item in enumerate(link.to_node.enum_items)}
     raise KeyError(name)
-
-
-def _menu_value(items: Any, position: int) -> int:
-    # Items are numbered as they were created, which is their position as long as none is removed.
-    return position
 
 
 def name_menu_items(switch: Any, names: tuple[str, ...]) -> None:

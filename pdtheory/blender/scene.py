@@ -81,7 +81,7 @@ def set_stage(scene: Any, corners: FloatArray, view: View, *, ground: bool = Tru
     scene.collection.objects.link(camera)
     scene.camera = camera
     camera.matrix_world = stage @ look
-    _frame(scene, camera, corners)
+    _frame(camera, corners)
     camera.data.clip_start, camera.data.clip_end = 1e-3 * size, 1e3 * size
 
     # The sun stands behind the left shoulder of the camera.
@@ -100,7 +100,7 @@ def set_stage(scene: Any, corners: FloatArray, view: View, *, ground: bool = Tru
         _ground(scene, stage, centre, 60.0 * size)
 
 
-def _frame(scene: Any, camera: Any, corners: FloatArray) -> None:
+def _frame(camera: Any, corners: FloatArray) -> None:
     """Move the camera along its axis and sideways until all points are in the picture."""
     points = np.ascontiguousarray(corners, dtype=np.float32).ravel()
     lens = camera.data.lens
