@@ -32,6 +32,8 @@ def mesh_suffixes() -> set[str]:
     return {f".{name}" for name in mesh_formats()} - {".xyz", ".stl_ascii"}
 
 
+# Coordinates that are not finite are for the caller to refuse, not for NumPy to warn of.
+@np.errstate(invalid="ignore", over="ignore")
 def read_mesh(path: Path) -> PointCloud:
     """Read a mesh or a point cloud with trimesh, vertices in the order of the file.
 
@@ -47,8 +49,8 @@ def read_mesh(path: Path) -> PointCloud:
     Returns
     -------
     PointCloud
-        Points, triangles if there are any, and normals: of the file for a point cloud, of the
-        triangles (:func:`winding_normals`) for a mesh.
+        Points, which may not be finite, triangles if there are any, and normals if the file has
+        them.
 
     Raises
     ------
@@ -80,11 +82,7 @@ def read_mesh(path: Path) -> PointCloud:
             faces=np.array(soup.faces, dtype=np.int64),
             name=path.name,
         )
-    if cloud.faces is None:
-        return cloud
-    return PointCloud(
-        cloud.points, winding_normals(cloud.points, cloud.faces), cloud.faces, cloud.name
-    )
+    return cloud
 
 
 def winding_normals(points: FloatArray, faces: IntArray) -> FloatArray | None:
@@ -97,7 +95,7 @@ def winding_normals(points: FloatArray, faces: IntArray) -> FloatArray | None:
     Parameters
     ----------
     points : (P, 3) float64
-        Vertices.
+        Vertices, finite.
     faces : (F, 3) int64
         Triangles.
 
@@ -105,22 +103,23 @@ def winding_normals(points: FloatArray, faces: IntArray) -> FloatArray | None:
     -------
     (P, 3) float64 or None
         Unit normals; a vertex without a proper triangle takes that of the nearest vertex that has
-        one. None if the winding is not consistent, or no triangle has an area.
+        one. None if the winding is not consistent, no triangle has an area, or the areas exceed
+        double precision.
     """
     if not len(faces) or not _consistent(_place_numbers(points)[faces]):
         return None
-    corners = points[faces]
-    doubled_area = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    sums = np.stack(
-        [
-            np.bincount(faces.ravel(), np.repeat(doubled_area[:, axis], 3), len(points))
-            for axis in range(3)
-        ],
-        axis=1,
-    )
-    lengths = np.linalg.norm(sums, axis=1)
+    with np.errstate(over="ignore", invalid="ignore"):
+        doubled_area = _doubled_areas(points, faces)
+        sums = np.stack(
+            [
+                np.bincount(faces.ravel(), np.repeat(doubled_area[:, axis], 3), len(points))
+                for axis in range(3)
+            ],
+            axis=1,
+        )
+        lengths = np.linalg.norm(sums, axis=1)
     known = lengths > 0.0
-    if not known.any():
+    if not known.any() or not np.isfinite(lengths).all():
         return None
     normals: FloatArray = np.zeros((len(points), 3))
     normals[known] = sums[known] / lengths[known, None]
@@ -152,29 +151,43 @@ def sample_mesh(cloud: PointCloud, count: int, seed: int) -> PointCloud:
     Raises
     ------
     InputError
-        If there are no triangles, they have no area, or `count` is below 1.
+        If there are no triangles, their area is zero or infinite, `count` is below 1, or `seed` is
+        negative.
     """
     import trimesh
 
     if count < 1:
         raise InputError(f"samples = {count}; give a positive number of samples.")
+    if seed < 0:
+        raise InputError(f"seed = {seed}; give 0 or a positive number.")
     if cloud.faces is None or not len(cloud.faces):
         raise InputError(
             f"{cloud.name} has no faces, so its surface cannot be sampled; "
             "leave out samples to use its points."
         )
     mesh = trimesh.Trimesh(cloud.points, cloud.faces, process=False)
-    if not mesh.area > 0.0:
+    with np.errstate(over="ignore"):
+        area = mesh.area
+    if not area > 0.0:
         raise InputError(f"{cloud.name} has no area, so its surface cannot be sampled.")
+    if not np.isfinite(area):
+        raise InputError(
+            f"the area of {cloud.name} exceeds double precision; choose larger units of length."
+        )
     points, index = trimesh.sample.sample_surface(mesh, count, seed=seed)[:2]
     normals = None
     if cloud.normals is not None:
-        corners = cloud.points[cloud.faces]
-        normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        normals = _doubled_areas(cloud.points, cloud.faces)
         # Triangles without area are never drawn, so their normal is never used.
         normals /= np.maximum(np.linalg.norm(normals, axis=1), np.finfo(float).tiny)[:, None]
         normals = normals[index]
     return PointCloud(np.asarray(points, dtype=np.float64), normals, name=cloud.name)
+
+
+def _doubled_areas(points: FloatArray, faces: IntArray) -> FloatArray:
+    """Return for each triangle its normal, as long as twice its area."""
+    corners = points[faces]
+    return np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
 
 
 def _load_scene(path: Path) -> trimesh.Scene:

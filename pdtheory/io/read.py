@@ -11,7 +11,7 @@ import numpy as np
 
 from pdtheory.errors import FileAccessError, FileFormatError, InputError
 from pdtheory.io.las import read_las
-from pdtheory.io.meshes import mesh_suffixes, read_mesh, sample_mesh
+from pdtheory.io.meshes import mesh_suffixes, read_mesh, sample_mesh, winding_normals
 from pdtheory.io.text import read_text
 from pdtheory.pointset.cloud import FloatArray, PointCloud
 
@@ -68,7 +68,9 @@ def read_cloud(
     except OSError as error:
         raise FileAccessError(f"cannot read {source}: {error.strerror or error}.") from error
     _require_finite(cloud.points, source, "a coordinate")
-    if cloud.normals is not None:
+    if cloud.faces is not None:
+        cloud = replace(cloud, normals=winding_normals(cloud.points, cloud.faces))
+    elif cloud.normals is not None:
         _require_finite(cloud.normals, source, "a normal")
         cloud = replace(cloud, normals=_unit(cloud.normals))
     return cloud if samples is None else sample_mesh(cloud, samples, seed)

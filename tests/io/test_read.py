@@ -235,6 +235,42 @@ def test_coordinates_must_be_finite(tmp_path: Path, content: str) -> None:
         read_cloud(text_file(tmp_path, "a.xyz", content))
 
 
+def sphere_file(path: Path, coordinate: float) -> None:
+    """Write a sphere with one coordinate that is not its own."""
+    sphere = trimesh.creation.icosphere(subdivisions=1)
+    points = np.array(sphere.vertices)
+    points[3, 1] = coordinate
+    with np.errstate(over="ignore", invalid="ignore"):
+        trimesh.Trimesh(points, sphere.faces, process=False).export(path)
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("samples", [None, 10])
+@pytest.mark.parametrize("coordinate", [np.nan, np.inf, -np.inf])
+@pytest.mark.parametrize("suffix", ["ply", "obj", "stl", "off", "glb"])
+def test_coordinates_of_meshes_must_be_finite(
+    tmp_path: Path, suffix: str, coordinate: float, samples: int | None
+) -> None:
+    path = tmp_path / f"a.{suffix}"
+    sphere_file(path, coordinate)
+    with pytest.raises(InputError, match="1 of 42 points is NaN or infinite"):
+        read_cloud(path, samples=samples)
+
+
+@pytest.mark.filterwarnings("error")
+def test_areas_beyond_double_precision_tell_no_side(tmp_path: Path) -> None:
+    path = tmp_path / "a.off"
+    for size in (1e160, 1e200, 1e308):
+        sphere_file(path, size)
+        cloud = read_cloud(path)
+        assert cloud.points[3, 1] == pytest.approx(size)
+        assert cloud.normals is None
+        with pytest.raises(InputError, match="area of a.off exceeds double precision"):
+            read_cloud(path, samples=10)
+    sphere_file(path, 1e30)
+    assert read_cloud(path).normals is not None
+
+
 def test_files_that_cannot_be_opened(tmp_path: Path) -> None:
     with pytest.raises(FileAccessError, match="no such file"):
         read_cloud(tmp_path / "missing.ply")
@@ -258,3 +294,5 @@ def test_sampling_needs_a_surface(tmp_path: Path) -> None:
     for count in (0, -5):
         with pytest.raises(PdtheoryError, match="positive number"):
             read_cloud(tmp_path / "cube.ply", samples=count)
+    with pytest.raises(InputError, match="seed = -1"):
+        read_cloud(tmp_path / "cube.ply", samples=5, seed=-1)
