@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import reprlib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
@@ -13,6 +14,10 @@ from pdtheory.errors import InputError
 #: Wavejets coefficients by (order k, frequency n), as exact real and imaginary parts.
 Table = dict[tuple[int, int], tuple[Fraction, Fraction]]
 
+#: Longest text of a value, and largest power of ten in it: beyond doubles, yet quick to work out.
+MAX_LENGTH, MAX_EXPONENT = 10_000, 400
+
+_EXPONENT = re.compile(r"[eE]([+-]?[\d_]+)")
 _TABLE_ENTRY = re.compile(r"\s*(\d+)\s*,\s*(\d+)\s*:\s*([^;]+)")
 _COMPLEX = re.compile(r"(?P<re>[+-]?[\d./e]+(?![\d./e]*[ij]))?\s*(?:(?P<im>[+-]?\s*[\d./e]*)[ij])?")
 
@@ -62,6 +67,10 @@ class Parameter:
         InputError
             If it cannot be read or lies outside the range.
         """
+        if isinstance(value, str) and len(value) > MAX_LENGTH:
+            raise InputError(
+                f"{self.name} has {len(value)} characters; at most {MAX_LENGTH} are read."
+            )
         if self.kind == "table":
             return self._table(value)
         if self.kind == "list":
@@ -79,7 +88,9 @@ class Parameter:
     def _number(self, value: Any) -> Fraction:
         number = _exact(value)
         if number is None:
-            raise InputError(f"{self.name} = {value!r} is not a number; {self._hint()}.")
+            raise InputError(
+                f"{self.name} = {reprlib.repr(value)} cannot be read as a number; {self._hint()}."
+            )
         if not self.low <= number <= self.high:
             raise InputError(f"{self.name} = {value} is out of range; {self._hint()}.")
         return number
@@ -94,8 +105,8 @@ class Parameter:
                 match = _TABLE_ENTRY.fullmatch(part)
                 if match is None:
                     raise InputError(
-                        f"{self.name}: cannot read {part.strip()!r}; write k,n:value entries "
-                        "separated by semicolons, such as 3,3:1/2; 3,1:0.1+2i."
+                        f"{self.name}: cannot read {reprlib.repr(part.strip())}; write k,n:value "
+                        "entries separated by semicolons, such as 3,3:1/2; 3,1:0.1+2i."
                     )
                 entries[int(match[1]), int(match[2])] = match[3]
             value = entries
@@ -110,7 +121,10 @@ class Parameter:
                 )
             parts = _exact_complex(entry)
             if parts is None:
-                raise InputError(f"{self.name}: {entry!r} is not a number such as 1/2 or 0.1+2i.")
+                raise InputError(
+                    f"{self.name}: {reprlib.repr(entry)} cannot be read as a number; "
+                    "write it as 1/2 or 0.1+2i."
+                )
             if frequency == 0 and parts[1] != 0:
                 raise InputError(f"{self.name}: the coefficient {order},0 must be real.")
             table[order, frequency] = parts
@@ -126,7 +140,12 @@ def _exact(value: Any) -> Fraction | None:
     try:
         if isinstance(value, float):
             return Fraction(repr(float(value)))
-        return Fraction(value.strip() if isinstance(value, str) else value)
+        if isinstance(value, str):
+            exponent = _EXPONENT.search(value)
+            if exponent is not None and abs(int(exponent[1])) > MAX_EXPONENT:
+                return None
+            return Fraction(value.strip())
+        return Fraction(value)
     except (ValueError, TypeError, ZeroDivisionError, OverflowError):
         return None
 

@@ -68,6 +68,7 @@ def test_thumbnails(tmp_path: Path) -> None:
         ("sample", "torus", "-p", "minor", "-o", "x.ply"),
         ("sample", "torus", "-p", "minor=9", "-o", "x.ply"),
         ("sample", "torus", "-n", "0", "-o", "x.ply"),
+        ("sample", "torus", "-p", "minor=1e99999999", "-o", "x.ply"),
         ("sample", "torus", "-o", "x.abc"),
         ("sample", "torus", "-o", "no-such-folder/x.ply"),
         ("sample", "torus", "-o", "x.stl"),
