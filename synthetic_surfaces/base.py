@@ -165,7 +165,7 @@ class Surface(ABC):
         InputError
             If a value is out of range.
         """
-        self._check_sampling(n, noise, outliers)
+        self._check_sampling(n, noise, outliers, seed)
         if method not in ("area", "blue", "grid"):
             raise InputError(f"method = {method!r}; give area, blue or grid.")
         if noise_along not in ("normal", "position"):
@@ -192,13 +192,15 @@ class Surface(ABC):
             self._add_outliers(points, normals, outliers, replacing)
         return PointCloud(points, normals, name=self.name)
 
-    def _check_sampling(self, n: int, noise: float, outliers: float) -> None:
+    def _check_sampling(self, n: int, noise: float, outliers: float, seed: int) -> None:
         if n < 1:
             raise InputError(f"n = {n}; give a positive number of points.")
         if not 0.0 <= noise < float("inf"):
             raise InputError(f"noise = {noise}; give a percentage of the diagonal, 0 or above.")
         if not 0.0 <= outliers < 1.0:
             raise InputError(f"outliers = {outliers}; give a share of the points, 0 to below 1.")
+        if seed < 0:
+            raise InputError(f"seed = {seed}; give 0 or a positive number.")
 
     def _add_outliers(
         self, points: FloatArray, normals: FloatArray, share: float, rng: np.random.Generator

@@ -70,7 +70,7 @@ def estimate(
         int | None,
         typer.Option(help="Sample the surface by area with this many points first."),
     ] = None,
-    seed: Annotated[int, typer.Option(help="Seed of the samples.")] = 0,
+    seed: Annotated[int, typer.Option(help="Seed of the samples.", min=0)] = 0,
     threads: Annotated[
         int | None, typer.Option(help="Threads to use; all processors by default.")
     ] = None,

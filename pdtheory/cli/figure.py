@@ -32,7 +32,7 @@ def figure(
         Path | None, typer.Option(help="Folder with scans (armadillo, fandisk, igea, rocker-arm).")
     ] = None,
     data_only: Annotated[bool, typer.Option("--data-only", help="Compute and check only.")] = False,
-    seed: Annotated[int, typer.Option(help="Seed of all random numbers.")] = 0,
+    seed: Annotated[int, typer.Option(help="Seed of all random numbers.", min=0)] = 0,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No progress bar.")] = False,
 ) -> None:
     """Redraw figures of the paper from data, with a check of numbers for each.

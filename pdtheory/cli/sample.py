@@ -44,7 +44,7 @@ def sample(
     method: Annotated[
         Method, typer.Option(help="Random by area, evenly spread (blue noise), or a grid.")
     ] = Method.area,
-    seed: Annotated[int, typer.Option(help="Seed of all random numbers.")] = 0,
+    seed: Annotated[int, typer.Option(help="Seed of all random numbers.", min=0)] = 0,
     parameter: Annotated[
         list[str] | None,
         typer.Option("--parameter", "-p", metavar="NAME=VALUE", help="A parameter; several times."),

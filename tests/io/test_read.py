@@ -265,7 +265,7 @@ def test_areas_beyond_double_precision_tell_no_side(tmp_path: Path) -> None:
         cloud = read_cloud(path)
         assert cloud.points[3, 1] == pytest.approx(size)
         assert cloud.normals is None
-        with pytest.raises(InputError, match="area of a.off exceeds double precision"):
+        with pytest.raises(InputError, match=r"area of a\.off exceeds double precision"):
             read_cloud(path, samples=10)
     sphere_file(path, 1e30)
     assert read_cloud(path).normals is not None
