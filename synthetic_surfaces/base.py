@@ -24,6 +24,9 @@ NoiseAlong = Literal["normal", "position"]
 #: Outliers fill the bounding box, enlarged by this share of its size on every side.
 OUTLIER_MARGIN = 0.1
 
+#: Most points of a sample, cells along a side of a mesh: NumPy counts so many, no memory holds them.
+MOST_POINTS, MOST_CELLS = 10**12, 10**6
+
 
 class Surface(ABC):
     """A surface that is known exactly.
@@ -110,7 +113,7 @@ class Surface(ABC):
         Parameters
         ----------
         resolution
-            Cells along a side, or from the centre to the rim; at least 2.
+            Cells along a side, or from the centre to the rim; 2 to 1,000,000.
 
         Returns
         -------
@@ -120,10 +123,10 @@ class Surface(ABC):
         Raises
         ------
         InputError
-            If `resolution` is below 2.
+            If `resolution` is out of range.
         """
-        if resolution < 2:
-            raise InputError(f"resolution = {resolution}; give at least 2.")
+        if not 2 <= resolution <= MOST_CELLS:
+            raise InputError(f"resolution = {resolution}; give a number from 2 to {MOST_CELLS:,}.")
         return PointCloud(*self._mesh(resolution), name=self.name)
 
     def sample(
@@ -193,8 +196,8 @@ class Surface(ABC):
         return PointCloud(points, normals, name=self.name)
 
     def _check_sampling(self, n: int, noise: float, outliers: float, seed: int) -> None:
-        if n < 1:
-            raise InputError(f"n = {n}; give a positive number of points.")
+        if not 1 <= n <= MOST_POINTS:
+            raise InputError(f"n = {n}; give a number of points from 1 to {MOST_POINTS:,}.")
         if not 0.0 <= noise < float("inf"):
             raise InputError(f"noise = {noise}; give a percentage of the diagonal, 0 or above.")
         if not 0.0 <= outliers < 1.0:

@@ -25,13 +25,21 @@ from pdtheory.errors import PdtheoryError
 
 
 class _Refusing(TyperGroup):
-    """Turn our own errors into one sentence and exit code 2."""
+    """Turn our own errors, and a lack of memory, into one sentence and exit code 2."""
 
     def invoke(self, ctx: Any) -> Any:
         try:
             return super().invoke(ctx)
         except PdtheoryError as error:
             typer.echo(f"pdtheory: {error}", err=True)
+            raise typer.Exit(2) from error
+        except MemoryError as error:
+            reason = f" ({error})" if str(error) else ""
+            typer.echo(
+                f"pdtheory: there is not enough memory{reason}; ask for less, or give a smaller "
+                "file.",
+                err=True,
+            )
             raise typer.Exit(2) from error
         except KeyboardInterrupt:
             typer.echo("pdtheory: interrupted; nothing was left half-written.", err=True)

@@ -19,6 +19,9 @@ if TYPE_CHECKING:
 #: Share of the inner edges that must run both ways before a mesh's winding tells the side.
 CONSISTENT_SHARE = 0.99
 
+#: Most samples: no memory holds them, but NumPy counts them.
+MOST_SAMPLES = 10**12
+
 #: OBJ lines other than positions and faces: they would make trimesh split the vertices.
 _OBJ_OTHER_LINES = re.compile(rb"^[ \t]*(?![ \t]*[vf][ \t]).*$", re.MULTILINE)
 _OBJ_FACE_EXTRAS = re.compile(rb"(?<=\d)/-?\d*(?:/-?\d*)?")
@@ -151,13 +154,13 @@ def sample_mesh(cloud: PointCloud, count: int, seed: int) -> PointCloud:
     Raises
     ------
     InputError
-        If there are no triangles, their area is zero or infinite, `count` is below 1, or `seed` is
-        negative.
+        If there are no triangles, their area is zero or infinite, or `count` or `seed` is out of
+        range.
     """
     import trimesh
 
-    if count < 1:
-        raise InputError(f"samples = {count}; give a positive number of samples.")
+    if not 1 <= count <= MOST_SAMPLES:
+        raise InputError(f"samples = {count}; give a positive number up to {MOST_SAMPLES:,}.")
     if seed < 0:
         raise InputError(f"seed = {seed}; give 0 or a positive number.")
     if cloud.faces is None or not len(cloud.faces):

@@ -83,6 +83,25 @@ def points_file(folder: Path, points: object, name: str = "points.xyz") -> Path:
     return folder / name
 
 
+def test_too_little_memory_is_one_sentence(cli: Run, refused: Refused, tmp_path: Path) -> None:
+    resource = pytest.importorskip("resource")
+    mesh = tmp_path / "torus.ply"
+    assert cli("sample", "torus", "--resolution", 8, "-o", mesh).exit_code == 0
+    soft, hard = resource.getrlimit(resource.RLIMIT_AS)
+    # Some systems promise any amount of memory and kill whoever uses it; this one shall refuse.
+    resource.setrlimit(resource.RLIMIT_AS, (1 << 40, hard))
+    try:
+        for arguments in (
+            ("sample", "torus", "-n", 10**12, "-o", tmp_path / "x.ply"),
+            ("sample", "torus", "--resolution", 10**6, "-o", tmp_path / "x.ply"),
+            ("estimate", mesh, "--samples", 10**12, "-o", tmp_path / "x.npz"),
+        ):
+            assert "not enough memory (Unable to allocate" in refused(*arguments)
+    finally:
+        resource.setrlimit(resource.RLIMIT_AS, (soft, hard))
+    assert list(tmp_path.iterdir()) == [mesh]
+
+
 def test_unreadable_input(refused: Refused, tmp_path: Path) -> None:
     target = tmp_path / "field.npz"
     assert "no such file" in refused("estimate", tmp_path / "absent.ply", "-o", target)
@@ -139,7 +158,7 @@ def test_interruption_leaves_what_was_there(
     def interrupt(*_: object, **__: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(np, "savez", interrupt)
+    monkeypatch.setattr(np.lib.format, "write_array", interrupt)
     result = cli("estimate", bumpy_cloud, "-o", target, "--degree", 2, "--orders", 2, "-q")
     assert result.exit_code == 130
     assert target.read_bytes() == b"precious"

@@ -291,7 +291,7 @@ def test_sampling_needs_a_surface(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="has no area"):
         read_cloud(flat, samples=10)
     CUBE.export(tmp_path / "cube.ply")
-    for count in (0, -5):
+    for count in (0, -5, 10**30):
         with pytest.raises(PdtheoryError, match="positive number"):
             read_cloud(tmp_path / "cube.ply", samples=count)
     with pytest.raises(InputError, match="seed = -1"):

@@ -323,6 +323,7 @@ def test_bad_parameters_get_one_sentence(name: str, values: dict[str, object], s
     "options",
     [
         {"n": 0},
+        {"n": 10**30},
         {"n": 10, "noise": -1.0},
         {"n": 10, "noise": float("nan")},
         {"n": 10, "outliers": 1.0},
@@ -336,3 +337,5 @@ def test_bad_sampling_is_refused(options: dict[str, object]) -> None:
         synthetic_surfaces.get("torus").sample(**options)  # type: ignore[arg-type]
     with pytest.raises(InputError):
         synthetic_surfaces.get("torus").mesh(1)
+    with pytest.raises(InputError):
+        synthetic_surfaces.get("torus").mesh(10**20)
