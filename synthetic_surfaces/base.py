@@ -24,7 +24,7 @@ NoiseAlong = Literal["normal", "position"]
 #: Outliers fill the bounding box, enlarged by this share of its size on every side.
 OUTLIER_MARGIN = 0.1
 
-#: Most points of a sample, cells along a side of a mesh: NumPy counts so many, no memory holds them.
+#: Most points of a sample, and cells along a side of a mesh; no memory holds so many.
 MOST_POINTS, MOST_CELLS = 10**12, 10**6
 
 
