@@ -87,4 +87,6 @@ def run() -> None:
         # A Windows console with a legacy code page must not stop at a Greek letter.
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="replace")
+    # Python writes no numbers of more than 4,300 digits; formulas are bounded where they are read.
+    sys.set_int_max_str_digits(0)
     app()

@@ -5,6 +5,8 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import NamedTuple
 
+from mpmath.libmp import numeral
+
 
 class Enclosure(NamedTuple):
     """A closed interval with rational ends that is proved to hold a real number."""
@@ -62,7 +64,9 @@ class Enclosure(NamedTuple):
 
 
 def _decimal(scaled: int, places: int) -> str:
-    text = str(abs(scaled)).rjust(places + 1, "0")
+    # Python refuses to write numbers of more than 4,300 digits.
+    size = abs(scaled)
+    text = numeral(size, size=size.bit_length() * 3 // 10).rjust(places + 1, "0")
     sign = "-" if scaled < 0 else ""
     return f"{sign}{text[:-places]}.{text[-places:]}" if places else f"{sign}{text}"
 
