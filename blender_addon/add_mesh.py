@@ -40,9 +40,14 @@ class AddSynthetic(AddObjectHelper):
         except PdtheoryError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
+        edited = context.edit_object
         thing = object_data_add(context, mesh, operator=self)
-        recipe = {"name": self.surface_name, "parameters": values}
-        thing.principal_directions.surface = json.dumps(recipe)
+        if edited is None:
+            recipe = {"name": self.surface_name, "parameters": values}
+            thing.principal_directions.surface = json.dumps(recipe)
+        else:
+            # Blender has joined the new surface into the edited one, which is not what it was.
+            edited.principal_directions.surface = ""
         return {"FINISHED"}
 
 
