@@ -8,13 +8,13 @@ from bpy.props import StringProperty
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 
 from pdtheory.blender.result import describe, field_of, show_result, source_for, strokes_of
-from pdtheory.errors import PdtheoryError
+from pdtheory.errors import InputError, PdtheoryError
 
 from .jobs import redraw, surface_object
 
 
 class ExportField(ExportHelper, bpy.types.Operator):
-    """Write the directions of the active object: NPZ (complete), PLY or CSV (for other programs)"""
+    """Write the directions of the active object: NPZ (all of it), PLY, VTP or CSV"""
 
     bl_idname = "principal_directions.export_field"
     bl_label = "Export Directions"
@@ -31,7 +31,7 @@ class ExportField(ExportHelper, bpy.types.Operator):
         from pdtheory.io import write_field
 
         try:
-            write_field(field_of(strokes_of(surface_object(context))), Path(self.filepath))
+            write_field(field_of(strokes_of(surface_object(context))), _chosen(self))
         except PdtheoryError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
@@ -58,7 +58,7 @@ class ImportField(ImportHelper, bpy.types.Operator):
 
         thing = surface_object(context)
         try:
-            field = read_field(Path(self.filepath))
+            field = read_field(_chosen(self))
             show_result(thing, source_for(thing, field), field)
         except PdtheoryError as error:
             self.report({"ERROR"}, str(error))
@@ -67,6 +67,19 @@ class ImportField(ImportHelper, bpy.types.Operator):
         thing.principal_directions.comparison = ""
         redraw()
         return {"FINISHED"}
+
+
+def _chosen(operator):
+    """Return the file that was chosen.
+
+    Raises
+    ------
+    InputError
+        If there is none.
+    """
+    if not operator.filepath:
+        raise InputError("no file is chosen; choose one.")
+    return Path(operator.filepath)
 
 
 register, unregister = bpy.utils.register_classes_factory((ExportField, ImportField))
