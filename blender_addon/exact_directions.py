@@ -10,9 +10,11 @@ import bpy
 import numpy as np
 
 from pdtheory.blender import compat
-from pdtheory.blender.result import field_of, show_result, strokes_of
+from pdtheory.blender.glyphs import add_modifier, find_modifier
+from pdtheory.blender.result import STROKES, field_of, show_result, strokes_of
 from pdtheory.blender.source import read_object
 from pdtheory.comparison import compare_fields, field_of_jets
+from pdtheory.drawing.glyphs import glyph_data
 from pdtheory.drawing.thinning import choose_spots
 from pdtheory.errors import InputError
 
@@ -64,12 +66,14 @@ class ShowExact(JobOperator, bpy.types.Operator):
         strokes = show_result(
             thing, replace(source, linear=np.eye(3), vertex=None), exact, suffix=_SUFFIX
         )
-        modifier = strokes.modifiers[0]
-        estimated = strokes_of(thing).modifiers[0]
+        modifier = find_modifier(strokes)
         compat.set_input(modifier, "Style", "Arrows")
         compat.set_input(modifier, "One Order Per Point", False)
         compat.set_input(modifier, "Spacing", 0.0)
         compat.set_input(modifier, "Lift", 0.15)
+        mine = strokes_of(thing)
+        # The estimated ones are to be seen beside them.
+        estimated = find_modifier(mine) or add_modifier(mine, glyph_data(field_of(mine)), STROKES)
         scale = float(np.cbrt(abs(np.linalg.det(source.linear))))
         compat.set_input(modifier, "Length", 1.5 * compat.get_input(estimated, "Length") / scale)
         found = compare_fields(field_of(strokes_of(thing)), exact, source.linear)

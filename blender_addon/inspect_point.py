@@ -6,7 +6,13 @@ from math import degrees
 import bmesh
 import bpy
 
-from pdtheory.blender.result import field_of, point_of_vertex, strokes_of
+from pdtheory.blender.result import (
+    at_samples,
+    collection_of,
+    field_of,
+    point_of_vertex,
+    strokes_of,
+)
 from pdtheory.conventions import Kind, Status
 from pdtheory.errors import InputError, PdtheoryError
 
@@ -24,9 +30,12 @@ def active_vertex(thing):
         If no vertex is active in edit mode.
     """
     if thing.mode == "EDIT" and thing.type == "MESH":
-        active = bmesh.from_edit_mesh(thing.data).select_history.active
+        edited = bmesh.from_edit_mesh(thing.data)
+        active = edited.select_history.active
         if not isinstance(active, bmesh.types.BMVert):
             raise InputError("no vertex is active; click one in vertex select mode.")
+        # New vertices are not numbered yet.
+        edited.verts.index_update()
         return active.index
     return thing.principal_directions.point
 
@@ -41,6 +50,8 @@ def active_point(thing):
     """
     strokes = strokes_of(thing)
     field = field_of(strokes)
+    if thing.mode == "EDIT" and at_samples(strokes):
+        raise InputError("the result is at samples; leave edit mode and type the number of one.")
     vertex = active_vertex(thing)
     point = point_of_vertex(strokes, vertex)
     if point is None:
@@ -124,7 +135,7 @@ class ShowBall(bpy.types.Operator):
         ball.empty_display_size = float(field.radius[point])
         ball.parent = strokes
         ball.location = field.points[point].tolist()
-        strokes.users_collection[0].objects.link(ball)
+        collection_of(strokes).objects.link(ball)
         return {"FINISHED"}
 
 

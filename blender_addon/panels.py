@@ -6,7 +6,7 @@ import textwrap
 import bpy
 
 from pdtheory.blender import compat
-from pdtheory.blender.glyphs import MODIFIER_NAME, ORDERS_KEY
+from pdtheory.blender.glyphs import ORDERS_KEY, find_modifier
 from pdtheory.blender.result import strokes_of
 from pdtheory.errors import PdtheoryError
 
@@ -220,7 +220,7 @@ def _sentence(context, layout, text):
 
 def _modifier(context):
     strokes = strokes_of(context.active_object)
-    return None if strokes is None else strokes.modifiers.get(MODIFIER_NAME)
+    return None if strokes is None else find_modifier(strokes)
 
 
 def _prop(layout, modifier, inputs, name):

@@ -4,23 +4,26 @@
 import bpy
 from bpy.props import EnumProperty
 
-from pdtheory.blender.shading import strength_material, strength_orders
+from pdtheory.blender.shading import cover_with_strength, strength_orders, uncover
 
 from .jobs import surface_object
+
+_NONE = "NONE"
 
 
 def _orders(self, context):
     thing = surface_object(context)
     found = strength_orders(thing.data) if thing is not None and thing.type == "MESH" else ()
     # Blender keeps no reference to dynamic items.
-    _orders.items = [(str(k), f"Order {k}", f"Strength of order {k}") for k in found] or [
-        ("0", "None", "No result")
+    _orders.items = [
+        *((str(k), f"Order {k}", f"Strength of order {k}") for k in found),
+        (_NONE, "None", "The materials that the object had before"),
     ]
     return _orders.items
 
 
 class ShowStrength(bpy.types.Operator):
-    """Give the surface a material that shows how strong the directions are"""
+    """Cover the materials of the surface with one that shows how strong the directions are"""
 
     bl_idname = "principal_directions.show_strength"
     bl_label = "Show Strength"
@@ -31,15 +34,20 @@ class ShowStrength(bpy.types.Operator):
     @classmethod
     def poll(cls, context):
         thing = surface_object(context)
-        return thing is not None and thing.type == "MESH" and bool(strength_orders(thing.data))
+        if thing is None or thing.type != "MESH" or not strength_orders(thing.data):
+            cls.poll_message_set("Compute directions at the vertices of a mesh first")
+            return False
+        if thing.mode == "EDIT":
+            cls.poll_message_set("Leave edit mode first")
+            return False
+        return True
 
     def execute(self, context):
         thing = surface_object(context)
-        material = strength_material(thing.data, int(self.order))
-        if thing.data.materials:
-            thing.data.materials[0] = material
+        if self.order == _NONE:
+            uncover(thing)
         else:
-            thing.data.materials.append(material)
+            cover_with_strength(thing, int(self.order))
         return {"FINISHED"}
 
 

@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 
 from pdtheory.blender import compat
-from pdtheory.blender.needles import needle_group, order_material
+from pdtheory.blender.needles import VERSION_KEY, needle_group, order_material
 from pdtheory.drawing.glyphs import ORDERS, REACH, GlyphData, single
 from pdtheory.pointset.cloud import FloatArray
 
@@ -56,23 +56,42 @@ def add_glyphs(
     glyphs = bpy.data.objects.new(name, mesh)
     glyphs.parent = parent
     collection.objects.link(glyphs)
+    add_modifier(glyphs, data, strokes)
+    return glyphs
+
+
+def find_modifier(glyphs: Any) -> Any | None:
+    """Return the modifier that draws the strokes of an object, whatever its name and place.
+
+    None if the user has removed it.
+    """
+    for modifier in glyphs.modifiers:
+        group = modifier.node_group if modifier.type == "NODES" else None
+        if group is not None and VERSION_KEY in group:
+            return modifier
+    return None
+
+
+def add_modifier(glyphs: Any, data: GlyphData, strokes: int) -> Any:
+    """Add the modifier that draws `data`, at about so many points, and return it."""
     modifier = glyphs.modifiers.new(MODIFIER_NAME, "NODES")
     modifier.node_group = needle_group()
     for order in ORDERS:
         compat.set_input(modifier, f"Material {order}", order_material(order))
-    offer_orders(glyphs, data)
     compat.set_input(modifier, "Style", "Needles")
     spacing = data.spots.spacing_for(strokes)
     compat.set_input(modifier, "Spacing", spacing)
     compat.set_input(modifier, "Length", REACH * spacing)
-    return glyphs
+    offer_orders(glyphs, data)
+    return modifier
 
 
 def offer_orders(glyphs: Any, data: GlyphData) -> None:
     """Switch on the orders that an object holds, and off those it does not."""
+    modifier = find_modifier(glyphs)
     present = set(np.unique(data.attributes["order"]).tolist()) if len(data) else set()
     for order in ORDERS:
-        compat.set_input(glyphs.modifiers[0], f"Order {order}", order in present)
+        compat.set_input(modifier, f"Order {order}", order in present)
     glyphs[ORDERS_KEY] = sorted(present)
 
 

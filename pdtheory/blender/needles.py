@@ -18,6 +18,8 @@ from pdtheory.drawing.glyphs import ORDERS
 
 #: Version of the group; a file with an older one keeps it, new objects get the new one.
 VERSION: Final = 1
+#: Property of a group that says which version it is.
+VERSION_KEY: Final = "pdtheory_version"
 GROUP_NAME: Final = f"Principal directions {VERSION}"
 
 STYLES: Final = ("Needles", "Arrows", "Lines")
@@ -58,10 +60,10 @@ def linear(component: float) -> float:
 def needle_group() -> Any:
     """Return the node group, built on first use in a file."""
     for group in bpy.data.node_groups:
-        if group.get("pdtheory_version") == VERSION and group.library is None:
+        if group.get(VERSION_KEY) == VERSION and group.library is None:
             return group
     group = bpy.data.node_groups.new(GROUP_NAME, "GeometryNodeTree")
-    group["pdtheory_version"] = VERSION
+    group[VERSION_KEY] = VERSION
     group.is_modifier = True
     _interface(group)
     _fill(Builder(group))

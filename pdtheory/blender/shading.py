@@ -1,8 +1,8 @@
-"""Materials that show what was stored on the surface."""
+"""Materials that show what was stored on the surface, over those of the user."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Final
 
 import bpy
 import numpy as np
@@ -11,13 +11,63 @@ from pdtheory.blender import compat
 from pdtheory.blender.needles import linear
 from pdtheory.conventions import ORDER_COLOURS
 
-_PREFIX = "strength_"
+#: Attribute of a surface with the largest strength of an order at each vertex, less the order.
+STRENGTH: Final = "directions_strength_"
+
+#: Property of an object: for each slot the link and the object's material that a strength covers.
+COVERED_KEY: Final = "pdtheory_covered"
+
+#: Property of a material that shows strengths: their order.
+_ORDER_KEY: Final = "pdtheory_strength"
 
 
 def strength_orders(mesh: Any) -> tuple[int, ...]:
-    """Return the orders whose strength a mesh carries."""
-    names = [a.name for a in mesh.attributes if a.name.startswith(_PREFIX)]
-    return tuple(sorted(int(name[len(_PREFIX) :]) for name in names))
+    """Return the orders whose strength a mesh carries, ascending."""
+    ours = {a.name for a in mesh.attributes if (a.domain, a.data_type) == ("POINT", "FLOAT")}
+    return tuple(order for order in sorted(ORDER_COLOURS) if f"{STRENGTH}{order}" in ours)
+
+
+def cover_with_strength(thing: Any, order: int) -> None:
+    """Show the strength of an order on an object, in place of its materials.
+
+    The mesh keeps its materials and which face has which: in every slot one of the object stands
+    before that of the mesh.
+
+    Parameters
+    ----------
+    thing
+        `bpy` mesh object that carries the strength.
+    order
+        The order.
+    """
+    material = strength_material(thing.data, order)
+    if not thing.material_slots:
+        thing.data.materials.append(None)
+    if COVERED_KEY not in thing:
+        thing[COVERED_KEY] = {}
+    covered = thing[COVERED_KEY]
+    for number, slot in enumerate(thing.material_slots):
+        link, slot.link = slot.link, "OBJECT"
+        if not _shows_strength(slot):
+            # A property has no room for None.
+            held = {} if slot.material is None else {"material": slot.material}
+            covered[str(number)] = {"link": link, **held}
+        slot.material = material
+
+
+def uncover(thing: Any) -> None:
+    """Give an object back the materials that :func:`cover_with_strength` covered."""
+    covered = thing.get(COVERED_KEY, {})
+    for number, slot in enumerate(thing.material_slots):
+        before = covered.get(str(number))
+        if before is not None and slot.link == "OBJECT" and _shows_strength(slot):
+            slot.material = before.get("material")
+            slot.link = before["link"]
+    thing.pop(COVERED_KEY, None)
+
+
+def _shows_strength(slot: Any) -> bool:
+    return slot.material is not None and _ORDER_KEY in slot.material
 
 
 def strength_material(mesh: Any, order: int) -> Any:
@@ -28,19 +78,22 @@ def strength_material(mesh: Any, order: int) -> Any:
     Parameters
     ----------
     mesh
-        `bpy` mesh with the attribute ``strength_{order}``.
+        `bpy` mesh with the attribute ``directions_strength_{order}``.
     order
         The order.
     """
     values = np.empty(len(mesh.vertices), dtype=np.float32)
-    mesh.attributes[f"{_PREFIX}{order}"].data.foreach_get("value", values)
+    mesh.attributes[f"{STRENGTH}{order}"].data.foreach_get("value", values)
     full = float(np.quantile(values, 0.95)) if len(values) else 1.0
     name = f"Strength of order {order} on {mesh.name}"
-    material = bpy.data.materials.get(name) or bpy.data.materials.new(name)
+    material = bpy.data.materials.get(name)
+    if material is None or _ORDER_KEY not in material:
+        material = bpy.data.materials.new(name)
+        material[_ORDER_KEY] = order
     tree = compat.enable_nodes(material)
     tree.nodes.clear()
     attribute = tree.nodes.new("ShaderNodeAttribute")
-    attribute.attribute_name = f"{_PREFIX}{order}"
+    attribute.attribute_name = f"{STRENGTH}{order}"
     span = tree.nodes.new("ShaderNodeMapRange")
     span.inputs["From Max"].default_value = full or 1.0
     ramp = tree.nodes.new("ShaderNodeValToRGB")

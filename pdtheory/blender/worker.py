@@ -58,7 +58,7 @@ def build_scene(job: DrawingJob) -> Any:
     import numpy as np
 
     from pdtheory.blender import compat, scene
-    from pdtheory.blender.glyphs import add_glyphs
+    from pdtheory.blender.glyphs import add_glyphs, find_modifier
     from pdtheory.blender.surface import add_points, add_surface
     from pdtheory.conventions import Kind
     from pdtheory.drawing.glyphs import glyph_data
@@ -100,7 +100,7 @@ def build_scene(job: DrawingJob) -> Any:
         origin=origin,
         strokes=job.choice.strokes,
     )
-    modifier = glyphs.modifiers[0]
+    modifier = find_modifier(glyphs)
     compat.set_input(modifier, "Maxima", Kind.MAXIMUM in job.choice.kinds)
     compat.set_input(modifier, "Minima", Kind.MINIMUM in job.choice.kinds)
     compat.set_input(modifier, "Least Strength", job.choice.least_strength)

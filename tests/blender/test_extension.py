@@ -6,10 +6,9 @@ import math
 
 import numpy as np
 import pytest
+from blender_objects import QUICK, add_mesh, refused
 
 pytestmark = pytest.mark.blender
-
-QUICK = {"neighbours": 40, "degree": 4, "orders": {"2", "3"}}
 
 
 def world_points(thing):
@@ -47,24 +46,6 @@ def shown(thing):
     matrix = np.array(strokes.matrix_world)
     place = arrays["position"] @ matrix[:3, :3].T + matrix[:3, 3]
     return (place, arrays["direction"] @ matrix[:3, :3].T, *list(arrays.values())[2:])
-
-
-def refused(operator, message, **settings):
-    with pytest.raises(RuntimeError) as caught:
-        operator(**settings)
-    assert message in str(caught.value)
-    assert "Traceback" not in str(caught.value)
-
-
-def add_mesh(points, faces=(), name="object"):
-    import bpy
-
-    mesh = bpy.data.meshes.new(name)
-    mesh.from_pydata([tuple(p) for p in points], [], [tuple(f) for f in faces])
-    thing = bpy.data.objects.new(name, mesh)
-    bpy.context.collection.objects.link(thing)
-    bpy.context.view_layer.objects.active = thing
-    return thing
 
 
 def test_unregistering_leaves_nothing_and_can_be_repeated(operators):
@@ -350,7 +331,7 @@ def test_strengths_lie_on_the_surface_and_can_be_shown(operators):
     thing = bpy.context.object
     operators.compute(**QUICK)
     values = np.empty(len(thing.data.vertices), dtype=np.float32)
-    thing.data.attributes["strength_3"].data.foreach_get("value", values)
+    thing.data.attributes["directions_strength_3"].data.foreach_get("value", values)
     rows = field_of(strokes_of(thing))[3]
     expected = np.zeros(len(values))
     np.maximum.at(expected, rows.point_index, rows.strength)
@@ -358,7 +339,7 @@ def test_strengths_lie_on_the_surface_and_can_be_shown(operators):
     assert operators.show_strength(order="3") == {"FINISHED"}
     material = thing.active_material
     assert any(
-        node.type == "ATTRIBUTE" and node.attribute_name == "strength_3"
+        node.type == "ATTRIBUTE" and node.attribute_name == "directions_strength_3"
         for node in material.node_tree.nodes
     )
 
