@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import zipfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Final
 
 from pdtheory.blender.packaging import run_tool
-from pdtheory.errors import ComputationError, InputError
+from pdtheory.errors import ComputationError, FileAccessError, InputError
+
+#: How Blender begins a line that says why it does not take something.
+_ERROR: Final = re.compile(r"\s*(FATAL_)?ERROR\b")
 
 
 def find_blender(given: Path | None = None) -> Path:
@@ -72,6 +77,8 @@ def install_zip(blender: Path, package: Path) -> None:
     ------
     InputError
         If the file is no zip of the extension.
+    FileAccessError
+        If it cannot be read.
     ComputationError
         If Blender refuses it.
     """
@@ -82,10 +89,12 @@ def install_zip(blender: Path, package: Path) -> None:
     said = run_tool(
         *extension, "install-file", "--repo", "user_default", "--enable", str(package.resolve())
     )
-    # Blender ends well, too, where it refuses a zip for another version.
-    if "principal_directions [installed]" not in run_tool(*extension, "list"):
-        reason = next((line for line in said.splitlines() if "ERROR" in line), "it did not say why")
-        raise ComputationError(f"{blender} did not take {package.name}: {reason.strip()}.")
+    # Blender ends well, too, where it refuses a zip; an older one may be installed all the same.
+    refusal = next((line.strip() for line in said.splitlines() if _ERROR.match(line)), None)
+    if refusal is None and "principal_directions [installed]" not in run_tool(*extension, "list"):
+        refusal = "it did not say why"
+    if refusal is not None:
+        raise ComputationError(f"{blender} did not take {package.name}: {refusal}.")
 
 
 @contextmanager
@@ -95,5 +104,9 @@ def _opened(package: Path) -> Iterator[zipfile.ZipFile]:
             yield archive
     except FileNotFoundError as error:
         raise InputError(f"no such file: {package}.") from error
+    except OSError as error:
+        raise FileAccessError(
+            f"cannot read {package}: {error.strerror}; give a zip made by addon build."
+        ) from error
     except zipfile.BadZipFile as error:
         raise InputError(f"{package} is no zip; build one with addon build.") from error

@@ -12,7 +12,13 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Final
 
-from pdtheory.errors import ComputationError, InputError, MissingDependencyError
+from pdtheory.atomic import atomic_path
+from pdtheory.errors import (
+    ComputationError,
+    FileAccessError,
+    InputError,
+    MissingDependencyError,
+)
 
 #: Wheel tags by Blender's name of a platform, best first.
 PLATFORMS: Final[dict[str, tuple[str, ...]]] = {
@@ -126,6 +132,8 @@ def build_zip(runtime: Runtime, platform: str, folder: Path) -> Path:
         If the platform is not known, or this pdtheory does not run from its source.
     MissingDependencyError
         If pip or Blender's extension tool cannot be found.
+    FileAccessError
+        If the folder cannot be made or written to.
     ComputationError
         If one of the tools fails, with what it said.
     """
@@ -135,7 +143,12 @@ def build_zip(runtime: Runtime, platform: str, folder: Path) -> Path:
         )
     root = source_root()
     tool = _extension_tool()
-    folder.mkdir(parents=True, exist_ok=True)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise FileAccessError(
+            f"cannot make the folder {folder}: {error.strerror}; choose another one."
+        ) from error
     with tempfile.TemporaryDirectory() as scratch:
         stage = Path(scratch) / "principal_directions"
         shutil.copytree(
@@ -154,7 +167,8 @@ def build_zip(runtime: Runtime, platform: str, folder: Path) -> Path:
             *blender_tool, "build", "--source-dir", str(stage), "--output-filepath", str(built)
         )
         run_tool(*blender_tool, "validate", str(built))
-        shutil.move(built, target)
+        with atomic_path(target) as temporary:
+            shutil.copyfile(built, temporary)
     return target
 
 
@@ -239,7 +253,7 @@ def run_tool(*command: str) -> str:
     if done.returncode:
         said = (done.stderr.strip() or done.stdout.strip()).splitlines()
         raise ComputationError(
-            f"{Path(command[0]).name} failed while packing the extension: "
+            f"{Path(command[0]).name} failed: "
             f"{said[-1].strip() if said else f'exit code {done.returncode}'}."
         )
     return done.stdout

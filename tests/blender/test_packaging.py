@@ -12,7 +12,7 @@ import pytest
 from typer.testing import CliRunner
 
 from pdtheory.blender import installing, packaging
-from pdtheory.errors import ComputationError, InputError, MissingDependencyError
+from pdtheory.errors import ComputationError, FileAccessError, InputError, MissingDependencyError
 
 
 @pytest.fixture
@@ -58,6 +58,29 @@ def test_zip_has_everything_and_is_valid(tmp_path, no_downloads, runtime, platfo
     assert manifest.get("blender_version_max") == runtime.blender_max
     assert {name.removeprefix("./") for name in manifest["wheels"]} <= names
     assert not any("numpy" in name for name in manifest["wheels"])
+
+
+@pytest.mark.blender
+def test_a_zip_is_written_whole_or_not_at_all(tmp_path, no_downloads, monkeypatch):
+    def broken(source, target, **rest):
+        if Path(target).suffix != ".zip":
+            return real(source, target, **rest)
+        Path(target).write_bytes(Path(source).read_bytes()[:100])
+        raise OSError(28, "No space left on device")
+
+    real = packaging.shutil.copyfile
+    monkeypatch.setattr(packaging.shutil, "copyfile", broken)
+    with pytest.raises(FileAccessError, match="No space left on device"):
+        packaging.build_zip(packaging.RUNTIMES[0], "linux-x64", tmp_path)
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.blender
+@pytest.mark.parametrize("folder", ["file", "file/below"])
+def test_a_folder_that_cannot_be_made_is_a_sentence(tmp_path, folder):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(FileAccessError, match="cannot make the folder"):
+        packaging.build_zip(packaging.RUNTIMES[0], "linux-x64", tmp_path / folder)
 
 
 def test_unknown_platform_and_python_are_refused(tmp_path):
@@ -121,6 +144,33 @@ def test_a_zip_that_blender_refuses_is_a_sentence(tmp_path):
     program.chmod(0o755)
     with pytest.raises(ComputationError, match="ERROR: needs version 5"):
         installing.install_zip(program, package)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="the stand-in for Blender is a shell script")
+def test_a_refused_zip_is_told_from_an_older_one_that_is_installed(tmp_path, monkeypatch):
+    package = tmp_path / "package.zip"
+    with zipfile.ZipFile(package, "w") as archive:
+        archive.writestr("blender_manifest.toml", "")
+    program = tmp_path / "blender"
+    program.write_text(
+        "#!/bin/sh\n[ $3 = list ] && SAID='principal_directions [installed]'\necho \"$SAID\"\n"
+    )
+    program.chmod(0o755)
+    monkeypatch.setenv("SAID", 'STATUS Installed "ERROR_free"')
+    installing.install_zip(program, package)
+    monkeypatch.setenv("SAID", "ERROR principal_directions: This Blender version is too old")
+    with pytest.raises(ComputationError, match=r"did not take package.zip: ERROR principal"):
+        installing.install_zip(program, package)
+
+
+def test_a_folder_is_not_installed(tmp_path):
+    with pytest.raises(FileAccessError, match="Is a directory"):
+        installing.install_zip(tmp_path / "blender", tmp_path)
+
+
+def test_what_a_tool_failed_at_is_not_made_up():
+    with pytest.raises(ComputationError, match=r"^\S+ failed: exit code 1\.$"):
+        packaging.run_tool(sys.executable, "-c", "raise SystemExit(1)")
 
 
 def test_installing_without_a_zip_says_how_to_build_one(tmp_path, monkeypatch):
