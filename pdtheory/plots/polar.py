@@ -37,7 +37,9 @@ _INNER_RIM: Final = 1.66
 _WRITING: Final = 2.2
 _EDGE: Final = 2.6
 
-_STYLE: Final[dict[str, Any]] = {"font.size": 8.0, "svg.hashsalt": "pdtheory"}
+#: What names inside an SVG are made from. matplotlib takes it from the settings of the whole
+#: process only; they are put back once the file is written.
+_SVG: Final[dict[str, Any]] = {"svg.hashsalt": "pdtheory"}
 #: Without dates and versions inside, equal numbers give equal files.
 _METADATA: Final[dict[str, dict[str, Any]]] = {
     ".png": {"Software": None},
@@ -121,7 +123,7 @@ def polar_figure(terms: Sequence[PolarTerm], *, title: str = "", figure: Any | N
     InputError
         If there is no term, or one is not finite.
     """
-    figure_class, rc_context = _matplotlib()
+    figure_class = _figure_class()
     if not terms:
         raise InputError("there is no order to plot; compute some, or choose another point.")
     for term in terms:
@@ -130,18 +132,17 @@ def polar_figure(terms: Sequence[PolarTerm], *, title: str = "", figure: Any | N
     columns = min(len(terms), _COLUMNS)
     rows = ceil(len(terms) / columns)
     margin = 0.35 if title else 0.0
-    with rc_context(_STYLE):
-        width, height = columns * _PANEL, rows * (_PANEL + _HEADING) + margin
-        if figure is None:
-            figure = figure_class(facecolor="white")
-        figure.set_size_inches(width, height)
-        for i, term in enumerate(terms):
-            left = (i % columns) * _PANEL
-            bottom = height - margin - (i // columns + 1) * (_PANEL + _HEADING)
-            place = (left / width, bottom / height, _PANEL / width, _PANEL / height)
-            _panel(figure.add_axes(place, projection="polar"), term)
-        if title:
-            figure.suptitle(title, fontsize=9.0, y=1.0 - 0.1 / height, va="top")
+    width, height = columns * _PANEL, rows * (_PANEL + _HEADING) + margin
+    if figure is None:
+        figure = figure_class(facecolor="white")
+    figure.set_size_inches(width, height)
+    for i, term in enumerate(terms):
+        left = (i % columns) * _PANEL
+        bottom = height - margin - (i // columns + 1) * (_PANEL + _HEADING)
+        place = (left / width, bottom / height, _PANEL / width, _PANEL / height)
+        _panel(figure.add_axes(place, projection="polar"), term)
+    if title:
+        figure.suptitle(title, fontsize=9.0, y=1.0 - 0.1 / height, va="top")
     return figure
 
 
@@ -169,13 +170,14 @@ def save_figure(figure: Any, path: str | os.PathLike[str]) -> None:
             f"cannot write {target}: the suffix {suffix or '(none)'} is not known; "
             f"use one of {', '.join(SUFFIXES)}."
         )
-    _, rc_context = _matplotlib()
-    with rc_context(_STYLE), atomic_path(target) as temporary:
+    from matplotlib import rc_context
+
+    with rc_context(_SVG), atomic_path(target) as temporary:
         figure.savefig(temporary, dpi=200, metadata=_METADATA[suffix])
 
 
 def figure_pixels(figure: Any, dpi: float) -> npt.NDArray[np.uint8]:
-    """Return a figure as a picture, without a file.
+    """Return a figure as a picture, without a file; any thread may ask for it.
 
     Parameters
     ----------
@@ -191,19 +193,18 @@ def figure_pixels(figure: Any, dpi: float) -> npt.NDArray[np.uint8]:
     """
     from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-    _, rc_context = _matplotlib()
-    with rc_context(_STYLE):
-        figure.set_dpi(dpi)
-        canvas = FigureCanvasAgg(figure)
-        canvas.draw()
-        return np.array(canvas.buffer_rgba(), np.uint8)
+    figure.set_dpi(dpi)
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    return np.array(canvas.buffer_rgba(), np.uint8)
 
 
 def figure_svg(figure: Any) -> str:
     """Return a figure as an SVG element that can stand inside an HTML page."""
-    _, rc_context = _matplotlib()
+    from matplotlib import rc_context
+
     stream = io.StringIO()
-    with rc_context(_STYLE | {"svg.fonttype": "none"}):
+    with rc_context(_SVG | {"svg.fonttype": "none"}):
         figure.savefig(stream, format="svg", metadata=_METADATA[".svg"])
     text = stream.getvalue()
     return text[text.index("<svg") :]
@@ -268,13 +269,12 @@ def _ray(axes: Any, colour: Any, angle: float, reach: float, kind: Kind, deviati
         axes.text(angle, _WRITING, text, fontsize=6.5, ha="center", va="center", color="0.25")
 
 
-def _matplotlib() -> tuple[Any, Any]:
-    """Return matplotlib's figure class and style context; no window and no global state is used."""
+def _figure_class() -> Any:
+    """Return matplotlib's class of figures, which belong to no window."""
     try:
-        from matplotlib import rc_context
-        from matplotlib.figure import Figure
+        from matplotlib import figure
     except ImportError as error:
         raise MissingDependencyError(
             "plots need matplotlib; install it with `pip install matplotlib` (extra figures)."
         ) from error
-    return Figure, rc_context
+    return figure.Figure

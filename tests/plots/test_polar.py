@@ -11,6 +11,7 @@ import pytest
 
 from pdtheory.conventions import Kind, frequencies, order_colour
 from pdtheory.errors import FileAccessError, InputError, MissingDependencyError
+from pdtheory.plots import polar
 from pdtheory.plots.polar import PolarTerm, figure_pixels, figure_svg, polar_figure, save_figure
 
 pytest.importorskip("matplotlib", reason="matplotlib is not installed (extra figures)")
@@ -155,9 +156,31 @@ def test_a_figure_of_pyplot_can_be_drawn_into():
     plt.close(figure)
 
 
-def test_no_window_and_no_global_state():
+def test_no_setting_of_the_process_changes_while_pixels_are_made(monkeypatch):
+    import matplotlib
+    from matplotlib.text import Text
+
+    before, seen = dict(matplotlib.rcParams), []
+
+    def watched(method):
+        def call(*given, **named):
+            seen.append(dict(matplotlib.rcParams) == before)
+            return method(*given, **named)
+
+        return call
+
+    monkeypatch.setattr(polar, "_panel", watched(polar._panel))
+    monkeypatch.setattr(Text, "draw", watched(Text.draw))
+    figure_pixels(polar_figure([MONKEY], title="monkey saddle"), 50)
+    assert len(seen) > 5
+    assert all(seen)
+
+
+def test_settings_are_put_back_after_a_file_is_written(tmp_path):
     import matplotlib
 
     before = dict(matplotlib.rcParams)
-    polar_figure([MONKEY])
+    figure = polar_figure([MONKEY])
+    save_figure(figure, tmp_path / "a.svg")
+    figure_svg(figure)
     assert dict(matplotlib.rcParams) == before
