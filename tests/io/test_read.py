@@ -27,7 +27,7 @@ PLY_HEADER = "ply\nformat ascii 1.0\nelement vertex {n}\n" + "".join(
 
 def text_file(folder: Path, name: str, content: str) -> Path:
     path = folder / name
-    path.write_text(content)
+    path.write_bytes(content.encode())
     return path
 
 
@@ -127,12 +127,50 @@ def test_scene_is_placed_and_joined(tmp_path: Path) -> None:
         ("a.csv", "// X;Y;Z;Intensity\n1;2;3;9\n4;5;6;9\n"),
         ("a.txt", "# made by hand\n\n1, 2, 3\n4, 5, 6\n"),
         ("a.xyz", "1 2 3 255 0 0\n4 5 6 0 255 0\n"),
+        # A mark of the encoding, as Excel writes it.
+        ("a.xyz", "\ufeff1 2 3\n4 5 6\n"),
+        ("a.csv", "\ufeffz,y,x\n3,2,1\n6,5,4\n"),
+        ("a.csv", "\ufeffx,y,z,intensity\n1,2,3,9\n4,5,6,9\n"),
+        # Comments that speak of x, y and z but do not name the columns.
+        ("a.xyz", "# columns: x y z r g b\n1 2 3 255 0 0\n4 5 6 0 255 0\n"),
+        ("a.csv", "y,x,z\n# survey of 2020\n2,1,3\n5,4,6\n"),
+        ("a.csv", "# z x y\n# axes z y x of the scanner\n3;1;2\n6;4;5\n"),
+        # Columns of words or of nothing.
+        ("a.csv", "class,x,y,z,note\nground,1,2,3,\nlow plant,4,5,6,wet\n"),
+        ("a.csv", "x,y,z,i\n1,2,3,\n4,5,6,\n"),
+        ("a.csv", "1,2,3,\n4,5,6,\n"),
+        ("a.csv", "X (m),Y (m),Z [m],I\n1,2,3,7\n4,5,6,7\n"),
+        ("a.xyz", "# note\n" * 150 + "1 2 3 // seen\n\n# between\n4 5 6\n"),
     ],
 )
 def test_text_layouts(tmp_path: Path, name: str, content: str) -> None:
     cloud = read_cloud(text_file(tmp_path, name, content))
     np.testing.assert_array_equal(cloud.points, [[1, 2, 3], [4, 5, 6]])
     assert cloud.normals is None
+
+
+@pytest.mark.parametrize(
+    ("content", "place"),
+    [
+        ("# made by hand\n\n1 2 3\n4 five 6\n", "line 4, column 2: 'five' is no number"),
+        ("x,y,z,class\n1,2,3,a\n4,5,,b\n", "line 3, column 3: '' is no number"),
+        ("x,y,z\n1,2,3\n1_0,5,6\n", "line 3, column 1: '1_0' is no number"),
+        ("1 2 3\n# a\n4 5\n6 7 8\n", r"line 3, has .* columns \(2\) than line 1 \(3\)"),
+        ("x,y,z,class\n1,2,3,a\n4,5,6\n", r"line 3, has .* columns \(3\) than line 2 \(4\)"),
+        ("x,y,z,class\n1,2,3,a\n1,234,5,6,b\n", r"line 3, has .* columns \(5\)"),
+        ("\n1 2 3 4\n", r"has 4 columns \(line 2\)"),
+        ("1,2,3,ground\n", "name all columns in a header"),
+    ],
+)
+def test_bad_rows_are_named_by_their_line(tmp_path: Path, content: str, place: str) -> None:
+    with pytest.raises(FileFormatError, match=place):
+        read_cloud(text_file(tmp_path, "a.csv", content))
+
+
+def test_text_in_another_encoding(tmp_path: Path) -> None:
+    path = tmp_path / "a.csv"
+    path.write_bytes("# café\nx,y,z,class\n1,2,3,forêt\n".encode("latin-1"))
+    np.testing.assert_array_equal(read_cloud(path).points, [[1, 2, 3]])
 
 
 def test_text_normals(tmp_path: Path) -> None:
