@@ -66,7 +66,8 @@ def set_stage(scene: Any, corners: FloatArray, view: View, *, ground: bool = Tru
     view
         Where the camera stands.
     ground
-        Whether the object stands on a ground that catches its shadow.
+        Whether the object stands on a ground that catches its shadow; never if it is seen from
+        below.
     """
     axes = view.axes()
     local = corners @ axes.T
@@ -84,17 +85,17 @@ def set_stage(scene: Any, corners: FloatArray, view: View, *, ground: bool = Tru
     _frame(camera, corners)
     camera.data.clip_start, camera.data.clip_end = 1e-3 * size, 1e3 * size
 
-    # The sun stands behind the left shoulder of the camera.
-    aim = Matrix.Rotation(azimuth - np.radians(38.0), 4, "Z") @ Matrix.Rotation(
-        np.radians(38.0), 4, "X"
-    )
+    # The sun stands behind the left shoulder of the camera, on the side that is seen.
+    below = view.elevation < 0.0
+    tilt = np.radians(180.0 - 38.0 if below else 38.0)
+    aim = Matrix.Rotation(azimuth - np.radians(38.0), 4, "Z") @ Matrix.Rotation(tilt, 4, "X")
     sun = bpy.data.objects.new("Sun", bpy.data.lights.new("Sun", "SUN"))
     sun.data.energy = _SUN
     sun.data.angle = np.radians(25.0)
     sun.matrix_world = stage @ aim
     scene.collection.objects.link(sun)
     _surroundings(scene)
-    if ground:
+    if ground and not below:
         centre = (low + high) / 2.0
         centre[2] = low[2] - 0.002 * size
         _ground(scene, stage, centre, 60.0 * size)

@@ -65,6 +65,13 @@ def estimate(
         str, typer.Option(help="Degree K of the regression, or auto to choose at each point.")
     ] = str(DEFAULT_DEGREE),
     orders: Annotated[str, typer.Option(help="Orders to compute, as 2,3,4 or 2:7.")] = "2,3",
+    orient: Annotated[
+        str,
+        typer.Option(
+            help="Side of the normals, which decides what is a maximum: auto, normals, winding, "
+            "propagate, none, or a viewpoint x,y,z that they look to.",
+        ),
+    ] = "auto",
     norm: Annotated[Norm, typer.Option(help="l1 resists outliers, l2 is faster.")] = Norm.L2,
     samples: Annotated[
         int | None,
@@ -118,6 +125,7 @@ def estimate(
         "radius_relative": radius_relative,
         "degree": degrees,
         "orders": wanted,
+        "orient": _orient(orient),
         "norm": norm.value,
         "threads": threads,
     }
@@ -162,6 +170,16 @@ def _radius(text: str | None) -> float | list[float] | Literal["auto"] | None:
         return [float(part) for part in text.split(",")]
     except ValueError:
         raise InputError(f"cannot read --radius {text!r}; write several as 0.1,0.2,0.4.") from None
+
+
+def _orient(text: str) -> str | list[float]:
+    """Read a way to orient normals: a word, or a viewpoint as three numbers."""
+    if "," not in text:
+        return text
+    try:
+        return [float(part) for part in text.split(",")]
+    except ValueError:
+        raise InputError(f"cannot read --orient {text!r}; write a viewpoint as x,y,z.") from None
 
 
 def _to_files(

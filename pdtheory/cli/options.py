@@ -38,7 +38,8 @@ Azimuth = Annotated[
     float | None, typer.Option(help="Degrees the camera goes round to the right of the front.")
 ]
 Elevation = Annotated[
-    float | None, typer.Option(help="Degrees the camera stands above the horizon.")
+    float | None,
+    typer.Option(help="Degrees the camera stands above the horizon, or below: -90 to 90."),
 ]
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -36,12 +36,12 @@ class View:
     azimuth : float
         Degrees by which the camera goes around to the right of the front.
     elevation : float
-        Degrees by which it stands above the horizon.
+        Degrees by which it stands above the horizon, or below it where negative.
 
     Raises
     ------
     InputError
-        If the axis is not one of the three, or the camera would stand below the ground.
+        If the axis is not one of the three, or an angle is out of range.
     """
 
     up: str = "z"
@@ -51,8 +51,8 @@ class View:
     def __post_init__(self) -> None:
         if self.up not in _STAGE:
             raise InputError(f"the axis that points up is {self.up!r}; give x, y or z.")
-        if not 0.0 <= self.elevation <= 90.0:
-            raise InputError(f"the elevation is {self.elevation:g}; give 0 to 90 degrees.")
+        if not -90.0 <= self.elevation <= 90.0:
+            raise InputError(f"the elevation is {self.elevation:g}; give -90 to 90 degrees.")
         if not np.isfinite(self.azimuth):
             raise InputError(f"the azimuth is {self.azimuth}; give degrees.")
 
@@ -77,8 +77,8 @@ def natural_view(
 ) -> View:
     """Choose a three-quarter view from the shape; what is given is kept.
 
-    Graphs are seen from the side their normals point to, flat things lie down, and all else stands
-    with y up, as scans do.
+    Graphs are seen from the side their normals point to, from below if that is the lower one; flat
+    things lie down, and all else stands with y up, as scans do.
 
     Parameters
     ----------
@@ -109,6 +109,9 @@ def natural_view(
             up = "xyz"[int(thin[0])]
         else:
             up = "y"
+    view = View(up, 30.0 if azimuth is None else azimuth)
     if elevation is None:
         elevation = 42.0 if graph else 30.0 if flat else 16.0
-    return View(up, 30.0 if azimuth is None else azimuth, elevation)
+        if graph and float(view.axes()[2] @ mean) < -_ONE_SIDED:
+            elevation = -elevation
+    return replace(view, elevation=elevation)

@@ -16,6 +16,9 @@ NEIGHBOURS = 10
 _BATCH = 10_000
 #: Weight of the edges between points whose normals are parallel, so that none is zero.
 _FLOOR = 1e-6
+#: Mean of the vertical components of the normals above which a part is seen from one side only; it
+#: is 0 for closed surfaces, and a half for a half sphere.
+_ONE_SIDED = 0.55
 
 
 def winding_normals(points: FloatArray, faces: IntArray) -> FloatArray:
@@ -39,7 +42,8 @@ def consistent_normals(points: FloatArray) -> FloatArray:
     neighbour graph costs 1 - |n_i . n_j|, so its minimum spanning tree goes where normals turn
     least, and signs are handed on along it (Hoppe et al., Surface reconstruction from unorganized
     points, 1992). In every connected part they start from the point farthest from the middle of the
-    part, whose normal is turned away from that middle: outward on a closed surface.
+    part, whose normal is turned away from that middle: outward on a closed surface. A part that is
+    seen from above or below only, such as a terrain, has no outside; its normals point to +z.
 
     Parameters
     ----------
@@ -57,7 +61,7 @@ def consistent_normals(points: FloatArray) -> FloatArray:
     keep = rows != columns
     graph = csr_matrix((cost[keep], (rows[keep], columns[keep])), shape=(count, count))
     tree = minimum_spanning_tree(graph).tocoo()
-    starts, outward = _starts(points, normals, graph)
+    label, starts, outward = _starts(points, normals, graph)
     # One more node joins the starting points of all parts, so that one traversal sees them all.
     tails = np.concatenate([tree.row, np.full(len(starts), count)])
     heads = np.concatenate([tree.col, starts])
@@ -70,7 +74,9 @@ def consistent_normals(points: FloatArray) -> FloatArray:
     agree[starts] = np.where(outward < 0, -1, 1)
     sign = np.ones(count + 1, np.int8)
     hand_on(order, parent, agree, sign)
-    return normals * sign[:count, None]
+    oriented = normals * sign[:count, None]
+    upward = np.bincount(label, oriented[:, 2]) / np.bincount(label)
+    return np.where(upward[label, None] < -_ONE_SIDED, -oriented, oriented)
 
 
 def _planes(points: FloatArray, size: int) -> tuple[IntArray, FloatArray]:
@@ -92,11 +98,17 @@ def _planes(points: FloatArray, size: int) -> tuple[IntArray, FloatArray]:
     return nearest, normals
 
 
-def _starts(points: FloatArray, normals: FloatArray, graph: Any) -> tuple[IntArray, FloatArray]:
-    """Return the outermost point of each connected part, and the outward part of its normal."""
+def _starts(
+    points: FloatArray, normals: FloatArray, graph: Any
+) -> tuple[IntArray, IntArray, FloatArray]:
+    """Return the connected part of each point, and of each part the outermost point.
+
+    The third is how far the normal of that points away from the middle of the part.
+    """
     from scipy.sparse.csgraph import connected_components
 
-    parts, label = connected_components(graph, directed=False)
+    parts, found = connected_components(graph, directed=False)
+    label = found.astype(np.int64)
     size = np.bincount(label)
     middle = np.column_stack(
         [np.bincount(label, points[:, axis], parts) / size for axis in range(3)]
@@ -104,4 +116,4 @@ def _starts(points: FloatArray, normals: FloatArray, graph: Any) -> tuple[IntArr
     away = points - middle[label]
     by_distance = np.lexsort((-np.einsum("ij,ij->i", away, away), label))
     starts = by_distance[np.searchsorted(label[by_distance], np.arange(parts))]
-    return starts, np.einsum("ij,ij->i", normals[starts], away[starts])
+    return label, starts, np.einsum("ij,ij->i", normals[starts], away[starts])

@@ -10,6 +10,7 @@ import pytest
 from typer.testing import Result
 
 from pdtheory import DirectionField, PointCloud
+from pdtheory.conventions import Status
 from pdtheory.io import write_cloud
 
 Run = Callable[..., Result]
@@ -257,6 +258,22 @@ def test_folder_and_resume_are_used_together(
     assert "only output" in refused(*run, tmp_path / "run", "-o", tmp_path / "field.npz")
     assert "cannot create" in refused(*run, tmp_path / "no" / "run", "--radius", 0.4)
     assert "catches at most 1 points" in refused(*run, tmp_path / "run", "--radius", 1e-6)
+
+
+def test_the_side_of_the_normals_can_be_asked_for(
+    cli: Run, refused: Refused, bumpy_cloud: Path, tmp_path: Path
+) -> None:
+    npz = tmp_path / "field.npz"
+    run = ("estimate", bumpy_cloud, "-o", npz, "--orders", 2, "--degree", 4, "-q")
+    for orient, side in (("auto", 1), ("0,0,9", 1), ("0,0,-9", -1)):
+        assert cli(*run, "--orient", orient).exit_code == 0
+        assert (np.sign(DirectionField.load(npz).frames[:, 2, 2]) == side).all()
+    assert cli(*run, "--orient", "none").exit_code == 0
+    assert (DirectionField.load(npz).status & Status.UNORIENTED).all()
+    assert "needs normals" in refused(*run, "--orient", "normals")
+    assert "orient 'up' is not known" in refused(*run, "--orient", "up")
+    assert "three numbers" in refused(*run, "--orient", "1,2")
+    assert "write a viewpoint as x,y,z" in refused(*run, "--orient", "a,b,c")
 
 
 def test_degree_and_radius_are_chosen_where_asked(

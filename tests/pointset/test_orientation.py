@@ -8,6 +8,7 @@ import pytest
 from pdtheory.conventions import Status
 from pdtheory.errors import InputError
 from pdtheory.pointset import PointCloud, estimate_directions
+from pdtheory.pointset.orientation import consistent_normals
 from tests.pointset.surfaces import rotation, torus
 
 HOW = {"neighbours": 40, "degree": 4, "orders": (2,)}
@@ -33,7 +34,23 @@ def test_open_patch_has_one_sign():
     xy = rng.uniform(-1, 1, (3000, 2))
     points = np.column_stack([xy, np.sin(3 * xy[:, 0]) * np.cos(2 * xy[:, 1])])
     field = estimate_directions(points, **HOW)
-    assert abs(np.sum(np.sign(field.frames[:, 2, 2]))) == 3000
+    assert np.all(field.frames[:, 2, 2] > 0)
+
+
+@pytest.mark.parametrize("bend", [-1.0, -0.1, 0.0, 0.1, 1.0])
+@pytest.mark.parametrize("seed", range(3))
+def test_terrains_are_seen_from_above(bend, seed):
+    xy = np.random.default_rng(seed).uniform(-1, 1, (2000, 2))
+    height = bend * np.sum(xy**2, axis=1) + 0.02 * np.sin(9 * xy[:, 0])
+    assert consistent_normals(np.column_stack([xy, height]))[:, 2].min() > 0
+
+
+@pytest.mark.parametrize("down", [0, 1, 2])
+def test_most_of_a_closed_surface_still_shows_its_outside(down):
+    sphere = np.random.default_rng(4).normal(size=(6000, 3))
+    sphere /= np.linalg.norm(sphere, axis=1, keepdims=True)
+    part = sphere[sphere[:, down] < 0.3]
+    assert np.all(np.sum(consistent_normals(part) * part, axis=1) > 0.9)
 
 
 def test_winding_of_a_mesh():

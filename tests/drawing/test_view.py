@@ -1,0 +1,35 @@
+"""Where the camera stands: on the side of a graph that its normals point to."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from pdtheory.drawing.view import View, natural_view
+from pdtheory.errors import InputError
+from pdtheory.pointset import estimate_directions
+
+
+@pytest.fixture(scope="module")
+def graph():
+    """Samples of a graph over x and y."""
+    xy = np.random.default_rng(2).uniform(-1, 1, (1500, 2))
+    return np.column_stack([xy, 0.2 * np.sin(3 * xy[:, 0]) * xy[:, 1]])
+
+
+@pytest.mark.parametrize("axis", [0, 1, 2])
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_a_graph_is_seen_from_the_side_of_its_normals(graph, axis, side):
+    points = np.roll(graph, axis - 2, axis=1)
+    eye = np.zeros(3)
+    eye[axis] = 20.0 * side
+    field = estimate_directions(points, neighbours=40, degree=3, orders=(2,), orient=eye)
+    view = natural_view(field, None)
+    assert (view.up, np.sign(view.elevation)) == ("xyz"[axis], side)
+    assert natural_view(field, None, elevation=-10.0).elevation == -10.0
+
+
+@pytest.mark.parametrize("elevation", [-90.1, 91.0, float("nan")])
+def test_an_elevation_out_of_range_is_refused(elevation):
+    with pytest.raises(InputError, match="give -90 to 90 degrees"):
+        View(elevation=elevation)
