@@ -9,13 +9,15 @@ import numpy as np
 from pdtheory.conventions import order_colour
 from pdtheory.drawing.choice import Choice
 from pdtheory.drawing.view import View, surface_points
-from pdtheory.pointset.cloud import PointCloud
+from pdtheory.pointset.cloud import FloatArray, PointCloud
 from pdtheory.pointset.field import DirectionField
 from pdtheory.viewer.strokes import Strokes, cells, discs
 
-#: Degrees of the camera's field of view, and how much farther it stands than it must.
+#: Degrees of the camera's field of view, and the part of the picture left free on each side.
 _ANGLE: Final = 30.0
-_MARGIN: Final = 1.06
+_MARGIN: Final = 0.06
+#: Steps that bring the picture to the middle, each of which leaves a fraction of the error.
+_STEPS: Final = 30
 
 _SURFACE: Final = (0.93, 0.92, 0.90)
 _DISCS: Final = (0.78, 0.77, 0.75)
@@ -171,24 +173,47 @@ class FieldView:
         )
 
     def _place_camera(self, view: View) -> None:
-        """Look at the middle of the points from where they just fill the window."""
+        """Stand where the points just fill the window, and lie in the middle of it."""
         right, back, up = view.axes()
         turn, rise = np.radians(view.azimuth), np.radians(view.elevation)
-        outward = np.cos(rise) * (np.sin(turn) * right - np.cos(turn) * back) + np.sin(rise) * up
-        # Seen from above, "up" in the picture is away from the viewer.
-        upward = back if view.elevation > 89.0 else up
-        across = np.cross(upward, outward)
-        across /= np.linalg.norm(across)
-        axes = np.stack([across, np.cross(outward, across), outward])
+        level = np.sin(turn) * right - np.cos(turn) * back
+        outward = np.cos(rise) * level + np.sin(rise) * up
+        upward = np.cos(rise) * up - np.sin(rise) * level
+        axes = np.stack([np.cross(upward, outward), upward, outward])
         seen = self._points @ axes.T
         middle = (seen.min(axis=0) + seen.max(axis=0)) / 2.0
         seen -= middle
-        tangent = np.tan(np.radians(_ANGLE) / 2.0)
         width, height = self.plotter.window_size
-        slopes = np.abs(seen[:, :2]) / (tangent * np.array([width / height, 1.0]))
-        reach = float(np.linalg.norm(np.ptp(seen, axis=0))) or 1.0
-        distance = max(_MARGIN * float((slopes.max(axis=1) + seen[:, 2]).max()), 0.1 * reach)
-        centre = middle @ axes
+        tangents = np.tan(np.radians(_ANGLE) / 2.0) * np.array([width / height, 1.0])
+        shift, distance = _fit(seen, tangents)
+        centre = (middle + shift) @ axes
         self.plotter.camera.view_angle = _ANGLE
         self.plotter.camera_position = [centre + distance * outward, centre, upward]
         self.plotter.reset_camera_clipping_range()
+
+
+def _fit(seen: FloatArray, tangents: FloatArray) -> tuple[FloatArray, float]:
+    """Return where a camera that looks along -z stands: its (x, y, 0), and its height z.
+
+    Parameters
+    ----------
+    seen : (N, 3) float64
+        Points that fill the picture in one direction and are in its middle in both.
+    tangents : (2,) float64
+        Half the width and height of the picture, at distance 1.
+    """
+    inner = (1.0 - 2.0 * _MARGIN) * tangents
+    deep = seen[:, 2, None] * inner
+    # A point is in the picture of a camera at (c, z) if |x - c| <= t (z - depth).
+    high = (seen[:, :2] + deep).max(axis=0)
+    low = (seen[:, :2] - deep).min(axis=0)
+    reach = float(np.linalg.norm(np.ptp(seen, axis=0))) or 1.0
+    distance = max(float(((high - low) / (2.0 * inner)).max()), seen[:, 2].max() + 0.1 * reach)
+    shift = np.zeros(3)
+    shift[:2] = (high + low) / 2.0
+    nearest = distance - seen[:, 2].max()
+    for _ in range(_STEPS):
+        # Where there is room left, the margins shall be equal in the picture, not in space.
+        slopes = (seen[:, :2] - shift[:2]) / (distance - seen[:, 2, None])
+        shift[:2] += nearest * (slopes.max(axis=0) + slopes.min(axis=0)) / 2.0
+    return shift, distance

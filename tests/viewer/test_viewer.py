@@ -142,6 +142,33 @@ def test_a_mesh_is_drawn_below(field, tmp_path):
     assert 0.2 < grey.mean() < 0.8
 
 
+@needs_pyvista
+@pytest.mark.parametrize("elevation", [-90.0, -20.0, 0.0, 55.0, 90.0])
+@pytest.mark.parametrize("size", [(400, 300), (300, 400), (600, 200)])
+def test_the_object_fills_the_picture_and_lies_in_its_middle(tmp_path, elevation, size):
+    import pyvista
+
+    # A long cone is far from symmetric in perspective.
+    along, turn = np.random.default_rng(8).uniform(0.0, 1.0, (2, 4000))
+    radius = 0.05 + 0.6 * along
+    cone = np.column_stack(
+        [radius * np.cos(2 * np.pi * turn), 3 * along, radius * np.sin(2 * np.pi * turn)]
+    )
+    shape = estimate_directions(cone, neighbours=30, degree=3, orders=(2,))
+    target = tmp_path / "view.png"
+    view_field(shape, up="z", elevation=elevation, azimuth=60.0, size=size, screenshot=target)
+    picture = pyvista.read(target).point_data.active_scalars.reshape(*size[::-1], -1)
+    inked = picture[..., :3].min(axis=-1) < 250
+    margins = []
+    for axis in (0, 1):
+        found = np.flatnonzero(inked.any(axis=axis))
+        low, high = found[0], inked.shape[1 - axis] - 1 - found[-1]
+        # Discs reach a little farther than their points.
+        assert abs(low - high) <= 12
+        margins.append(min(low, high) / inked.shape[1 - axis])
+    assert 0.0 < min(margins) <= 0.06
+
+
 def test_switches_and_threshold_change_the_picture(field, scene):
     scene.add_controls()
     both = scene.plotter.screenshot(return_img=True)
