@@ -7,12 +7,12 @@ import bpy
 
 from pdtheory.blender.needles import needle_group
 from pdtheory.blender.proposal import propose_radius
-from pdtheory.blender.result import describe, show_result
-from pdtheory.blender.source import read_object
+from pdtheory.blender.result import describe, replaceable_strokes, show_result
+from pdtheory.blender.source import fingerprint, read_object
 from pdtheory.drawing.glyphs import glyph_data
 from pdtheory.errors import InputError, PdtheoryError
 
-from .jobs import JobOperator, prepare, surface_object
+from .jobs import JobOperator, has_points, prepare, surface_object
 from .preferences import thread_count
 from .properties import SETTING_NAMES, ComputeSettings
 
@@ -28,6 +28,8 @@ class Compute(ComputeSettings, JobOperator, bpy.types.Operator):
         if not settings.orders:
             raise InputError("no order is chosen; choose at least one.")
         thing = surface_object(context)
+        # Refused now, and not after a while.
+        replaceable_strokes(thing)
         source = read_source(thing, settings)
         # Built now and not together with the result: neither step may hold up the window.
         needle_group()
@@ -43,18 +45,25 @@ class Compute(ComputeSettings, JobOperator, bpy.types.Operator):
         }
 
         def work(report):
+            # The import alone takes seconds.
+            report(0.0, "loading the libraries")
             from pdtheory.pointset.estimate import estimate_directions
 
             field = estimate_directions(source.cloud, progress=report, **options)
             report(1.0, "laying out the strokes")
             return field, glyph_data(field)
 
-        return prepare(thing, work, source)
+        read = fingerprint(thing, evaluated=settings.evaluated)
+        return prepare(thing, work, (source, settings.evaluated, read))
 
-    def apply(self, thing, source, result):
+    def apply(self, thing, extra, result):
+        source, evaluated, read = extra
         field, data = result
+        edited = fingerprint(thing, evaluated=evaluated) != read
         show_result(thing, source, field, data)
         lines = describe(field, loose=source.loose)
+        if edited:
+            lines.insert(0, f"{thing.name} was edited meanwhile; compute again.")
         thing.principal_directions.summary = "\n".join(lines)
         thing.principal_directions.comparison = ""
         return lines[0]
@@ -69,7 +78,7 @@ class ProposeRadius(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return surface_object(context) is not None
+        return has_points(cls, context)
 
     def execute(self, context):
         settings = context.scene.principal_directions

@@ -16,7 +16,7 @@ from pdtheory.blender.result import (
 from pdtheory.conventions import Kind, Status
 from pdtheory.errors import InputError, PdtheoryError
 
-from .jobs import surface_object
+from .jobs import has_result, surface_object
 
 _BALL_KEY = "pdtheory_ball"
 
@@ -95,7 +95,7 @@ class CopyRow(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return strokes_of(surface_object(context)) is not None
+        return has_result(cls, context)
 
     def execute(self, context):
         try:
@@ -104,6 +104,7 @@ class CopyRow(bpy.types.Operator):
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         context.window_manager.clipboard = wavejets_row(*found)
+        self.report({"INFO"}, "The Wavejets row is on the clipboard")
         return {"FINISHED"}
 
 
@@ -116,7 +117,7 @@ class ShowBall(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return strokes_of(surface_object(context)) is not None
+        return has_result(cls, context)
 
     def execute(self, context):
         thing = surface_object(context)

@@ -8,7 +8,8 @@ import bpy
 from bpy.app.handlers import persistent
 
 from pdtheory.blender.background import Job
-from pdtheory.blender.result import POINTS_KEY, forget_all
+from pdtheory.blender.result import POINTS_KEY, forget_all, strokes_of
+from pdtheory.blender.source import TYPES
 from pdtheory.errors import Cancelled, PdtheoryError
 
 _INTERVAL = 0.1
@@ -26,17 +27,17 @@ class Prepared:
         Which object; names change, and undo replaces the data behind a reference.
     name : str
         Its name, for messages.
-    shape : tuple of int
-        What changes when the object is edited.
     extra : Any
         What the operator needs to apply the result.
+    timer : Any
+        What lets the operator look at the job, once it was started.
     """
 
     job: Job[Any]
     uid: int
     name: str
-    shape: tuple[int, ...]
     extra: Any = None
+    timer: Any = None
 
 
 #: At most one computation runs at a time.
@@ -51,19 +52,26 @@ def surface_object(context):
     return thing
 
 
-def shape_of(thing):
-    """Return what changes when an object is edited."""
-    if thing.type != "MESH":
-        return ()
-    if thing.mode == "EDIT":
-        thing.update_from_editmode()
-    data = thing.data
-    return (len(data.vertices), len(data.edges), len(data.polygons))
+def has_points(operator, context):
+    """Return True if the object that a command is about has points, else say that on the button."""
+    thing = surface_object(context)
+    if thing is None or thing.type not in TYPES:
+        operator.poll_message_set("Select a mesh, curve, text, metaball or point cloud")
+        return False
+    return True
+
+
+def has_result(operator, context):
+    """Return True if the object that a command is about has a result, else say that there."""
+    if strokes_of(surface_object(context)) is None:
+        operator.poll_message_set("Compute the directions of this object first")
+        return False
+    return True
 
 
 def prepare(thing, work, extra=None):
     """Pack up work for an object."""
-    return Prepared(Job(work), thing.session_uid, thing.name, shape_of(thing), extra)
+    return Prepared(Job(work), thing.session_uid, thing.name, extra)
 
 
 class JobOperator:
@@ -74,17 +82,14 @@ class JobOperator:
     """
 
     bl_options = {"UNDO"}  # noqa: RUF012
-    _timer = None
+    _mine = None
 
     @classmethod
     def poll(cls, context):
         if _running is not None:
             cls.poll_message_set("A computation is running")
             return False
-        if surface_object(context) is None:
-            cls.poll_message_set("Select an object")
-            return False
-        return True
+        return has_points(cls, context)
 
     def execute(self, context):
         """Do it at once: for scripts, and where there is no window."""
@@ -105,33 +110,31 @@ class JobOperator:
         if bpy.app.background:
             return self.execute(context)
         try:
-            _running = self.prepared(context)
+            self._mine = _running = self.prepared(context)
         except PdtheoryError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         _running.job.start()
         manager = context.window_manager
-        self._timer = manager.event_timer_add(_INTERVAL, window=context.window)
+        _running.timer = manager.event_timer_add(_INTERVAL, window=context.window)
         manager.modal_handler_add(self)
         _show_progress(manager)
         return {"RUNNING_MODAL"}
 
     def modal(self, context, event):
         """Pass everything through but Esc, and look at the job ten times a second."""
-        if _running is None:
-            self._stop(context)
+        if _running is None or _running is not self._mine:
+            # Another file was opened, and perhaps another computation has begun in it.
             return {"CANCELLED"}
         if event.type == "ESC" and event.value == "PRESS":
-            # The thread ends at its next report; it holds copies only, nobody waits for it.
-            _running.job.cancel()
-            self._stop(context)
+            _stop()
             self.report({"INFO"}, "Cancelled")
             return {"CANCELLED"}
         if event.type != "TIMER":
             return {"PASS_THROUGH"}
         if _running.job.cancelled:
             # By the button.
-            self._stop(context)
+            _stop()
             self.report({"INFO"}, "Cancelled")
             return {"CANCELLED"}
         if not _running.job.done:
@@ -141,20 +144,18 @@ class JobOperator:
 
     def cancel(self, context):
         """Blender ends the operator itself: another file is opened, or the program closes."""
-        if _running is not None:
-            _running.job.cancel()
-        self._stop(context)
+        if _running is self._mine:
+            _stop()
 
     def _finish(self, context):
         ended = _running
-        self._stop(context)
+        _forget()
         try:
             result = ended.job.result()
             thing = next((o for o in bpy.data.objects if o.session_uid == ended.uid), None)
             if thing is None:
                 self.report({"WARNING"}, f"{ended.name} was deleted; the result was dropped")
                 return {"CANCELLED"}
-            edited = shape_of(thing) != ended.shape
             sentence = self.apply(thing, ended.extra, result)
         except Cancelled:
             self.report({"INFO"}, "Cancelled")
@@ -163,20 +164,8 @@ class JobOperator:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         redraw()
-        if edited:
-            self.report({"WARNING"}, f"{thing.name} was edited meanwhile; compute again")
-        else:
-            self.report({"INFO"}, sentence)
+        self.report({"INFO"}, sentence)
         return {"FINISHED"}
-
-    def _stop(self, context):
-        global _running
-        _running = None
-        if self._timer is not None:
-            context.window_manager.event_timer_remove(self._timer)
-            self._timer = None
-        context.window_manager.principal_directions.running = False
-        redraw()
 
 
 class CancelCompute(bpy.types.Operator):
@@ -216,13 +205,29 @@ def redraw():
                 area.tag_redraw()
 
 
+def _stop():
+    """End the running computation, if there is one."""
+    if _running is not None:
+        # The thread ends at its next report; it holds copies only, nobody waits for it.
+        _running.job.cancel()
+    _forget()
+
+
+def _forget():
+    """Let nothing watch or show the running computation any more."""
+    global _running
+    if _running is not None and _running.timer is not None:
+        bpy.context.window_manager.event_timer_remove(_running.timer)
+    _running = None
+    for manager in bpy.data.window_managers:
+        manager.principal_directions.running = False
+    redraw()
+
+
 @persistent
 def _new_file(*_):
     """Nothing of the old file survives."""
-    global _running
-    if _running is not None:
-        _running.job.cancel()
-        _running = None
+    _stop()
     forget_all()
 
 

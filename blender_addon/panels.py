@@ -13,6 +13,7 @@ from pdtheory.errors import PdtheoryError
 from .inspect_point import active_point, active_vertex, table
 from .jobs import surface_object
 from .polar_plot import plots_of
+from .presets import DIRECTIONS_PT_presets
 
 _LOOK = ("Style", "Length", "By Strength", "Width", "Taper", "Lift", "Follow Surface")
 _CHOICE = (
@@ -41,7 +42,7 @@ class DIRECTIONS_PT_compute(_DirectionsPanel, bpy.types.Panel):  # noqa: N801
     bl_label = "Principal Directions"
 
     def draw_header_preset(self, context):
-        self.layout.menu("DIRECTIONS_MT_presets", text="", icon="PRESET")
+        DIRECTIONS_PT_presets.draw_panel_header(self.layout)
 
     def draw(self, context):
         layout = self.layout
@@ -73,12 +74,14 @@ class DIRECTIONS_PT_compute(_DirectionsPanel, bpy.types.Panel):  # noqa: N801
         progress = context.window_manager.principal_directions
         if progress.running:
             row = layout.row(align=True)
-            row.progress(factor=progress.fraction, text=progress.text)
+            row.progress(factor=progress.fraction, text=f"{progress.fraction:.0%}")
             row.operator("principal_directions.cancel", text="", icon="X")
+            _sentence(context, layout, progress.text)
         else:
             row = layout.row()
             row.scale_y = 1.5
             row.operator("principal_directions.compute", icon="ORIENTATION_NORMAL")
+            layout.operator("principal_directions.import_field", icon="IMPORT")
 
 
 class DIRECTIONS_PT_result(_DirectionsPanel, bpy.types.Panel):  # noqa: N801
@@ -99,9 +102,7 @@ class DIRECTIONS_PT_result(_DirectionsPanel, bpy.types.Panel):  # noqa: N801
             layout.operator("principal_directions.show_exact", icon="CHECKMARK")
             for line in thing.principal_directions.comparison.splitlines():
                 _sentence(context, layout, line)
-        row = layout.row(align=True)
-        row.operator("principal_directions.export_field", text="Export", icon="EXPORT")
-        row.operator("principal_directions.import_field", text="Import", icon="IMPORT")
+        layout.operator("principal_directions.export_field", icon="EXPORT")
         layout.operator_menu_enum(
             "principal_directions.show_strength", "order", icon="SHADING_RENDERED"
         )

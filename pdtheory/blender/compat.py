@@ -6,6 +6,9 @@ from typing import Any
 
 import bpy
 
+#: Options of a property that holds a path, which may be given relative to the file as ``//name``.
+RELATIVE_PATH = {"PATH_SUPPORTS_BLEND_RELATIVE"} if bpy.app.version >= (5, 0, 0) else set()
+
 
 def interface_inputs(tree: Any) -> dict[str, Any]:
     """Return the input sockets of a node group by name."""

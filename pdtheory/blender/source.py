@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from hashlib import blake2b
 from typing import Any, Final
 
 import bpy
@@ -69,7 +70,7 @@ def read_object(
         raise InputError("no object is active; select one.")
     if thing.type not in TYPES:
         raise InputError(
-            f"{thing.name} is a {thing.type.lower()}; select a mesh, point cloud, curve or text."
+            f"{thing.name} has no points to compute on; select a mesh, point cloud, curve or text."
         )
     linear = np.array(thing.matrix_world.to_3x3(), dtype=np.float64)
     if abs(np.linalg.det(linear)) <= 1e-12 * np.linalg.norm(linear) ** 3:
@@ -106,18 +107,47 @@ def read_object(
     return Source(cloud, linear, used, count, count - len(used))
 
 
+def fingerprint(thing: Any, *, evaluated: bool = True) -> bytes:
+    """Return a few bytes that change when the points or faces of an object do.
+
+    Parameters
+    ----------
+    thing
+        `bpy` object of one of :data:`TYPES`.
+    evaluated
+        As in :func:`read_object`.
+    """
+    if thing.mode == "EDIT":
+        thing.update_from_editmode()
+    faces = 0
+    if thing.type == "POINTCLOUD":
+        points = _positions(thing)
+    else:
+        with _mesh_of(thing, evaluated) as mesh:
+            points = _get(mesh.vertices, "co", len(mesh.vertices), 3)
+            faces = len(mesh.polygons)
+    return blake2b(points.tobytes() + faces.to_bytes(8, "little"), digest_size=16).digest()
+
+
 def _read_points(thing: Any, linear: FloatArray, samples: int | None) -> Source:
     if samples is not None:
         raise InputError(f"{thing.name} is a point cloud and has no faces; use its points.")
-    data = thing.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
-    attribute = data.attributes.get("position")
-    count = len(attribute.data) if attribute is not None else 0
+    points = _positions(thing)
+    count = len(points)
     if not count:
         raise InputError(f"{thing.name} has no points; there is nothing to compute on.")
-    points = _get(attribute.data, "vector", count, 3)
     return Source(
         PointCloud(points @ linear.T, name=thing.name), linear, np.arange(count), count, 0
     )
+
+
+def _positions(thing: Any) -> FloatArray:
+    """Return the points of a point cloud, as it is shown."""
+    data = thing.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+    attribute = data.attributes.get("position")
+    if attribute is None:
+        return np.empty((0, 3))
+    return _get(attribute.data, "vector", len(attribute.data), 3)
 
 
 @contextmanager
