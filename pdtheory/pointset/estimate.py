@@ -15,7 +15,7 @@ from pdtheory.pointset.engine import Engine
 from pdtheory.pointset.field import DirectionField
 from pdtheory.pointset.neighbourhoods import suggest_radius
 from pdtheory.pointset.options import Options, shows_options_of
-from pdtheory.pointset.pool import Flag, run_spans, shrinking_spans
+from pdtheory.pointset.pool import Flag, chunk_size, run_spans, shrinking_spans
 from pdtheory.pointset.prepare import prepare
 from pdtheory.pointset.selection import Selector
 
@@ -112,7 +112,8 @@ def estimate_directions(
         where = engine.visit[start:stop]
         collector.compute(where, flag, where)
 
-    todo = shrinking_spans(0, len(run.places), run.threads)
+    most = chunk_size(engine.choice.neighbours)
+    todo = shrinking_spans(0, len(run.places), run.threads, most)
     for _ in run_spans(work, todo, run.threads, run.progress, "estimating directions"):
         pass
     result = collector.field(run.threads)

@@ -80,6 +80,24 @@ def open_folder(folder: Path, plan: dict[str, Any], resume: bool) -> None:
         left.unlink(missing_ok=True)
 
 
+def discard_run(folder: Path) -> None:
+    """Take a finished run out of its folder, so that the folder can take another.
+
+    Raises
+    ------
+    FileAccessError, FileFormatError
+        If it holds no finished run, or it cannot be removed.
+    """
+    try:
+        # The plan goes last: parts without one would be taken for parts of the next run.
+        for path in (*_finished(folder), folder / _PLAN):
+            path.unlink()
+    except (FileAccessError, FileFormatError):
+        raise
+    except OSError as error:
+        raise FileAccessError(f"cannot empty {folder}: {error.strerror}.") from error
+
+
 def read_plan(folder: str | os.PathLike[str]) -> dict[str, Any]:
     """Return the plan of a run.
 
@@ -152,13 +170,13 @@ def load_points(
     Raises
     ------
     InputError
-        If a number is outside the run.
+        If a number is outside the run, or something is no number of a point.
     FileAccessError, FileFormatError
         As for :func:`load_parts`.
     """
     paths = _finished(folder)
     total = int(read_plan(folder)["queries"])
-    chosen = np.arange(total) if points is None else np.asarray(points, np.int64)
+    chosen = np.arange(total) if points is None else _numbers(points)
     outside = chosen[(chosen < 0) | (chosen >= total)]
     if len(outside):
         raise InputError(
@@ -174,6 +192,17 @@ def load_points(
             places.append(row[row >= 0])
             found.append(DirectionField.load(path).take(row >= 0))
     return join(found).take(np.argsort(np.concatenate(places)))
+
+
+def _numbers(points: npt.ArrayLike) -> IntArray:
+    """Return numbers of queries as an array."""
+    try:
+        numbers = np.asarray(points)
+        if numbers.ndim != 1 or (numbers.size and numbers.dtype.kind not in "iu"):
+            raise ValueError
+    except (TypeError, ValueError):
+        raise InputError("points must be a list of numbers of points, such as [0, 7].") from None
+    return numbers.astype(np.int64)
 
 
 def join(parts: Sequence[DirectionField]) -> DirectionField:

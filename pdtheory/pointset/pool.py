@@ -19,6 +19,8 @@ _PULSE = 0.1
 #: Most points in a chunk, since handing one out takes up to a millisecond of Python, and fewest
 #: where many small ones let all threads end together.
 CHUNK, _FEWEST = 2048, 128
+#: Most neighbours that are listed at a time: 16 MB a thread, with their distances.
+_LISTED = 2**20
 
 
 def thread_count(threads: int | None) -> int:
@@ -28,9 +30,16 @@ def thread_count(threads: int | None) -> int:
             return max(1, len(os.sched_getaffinity(0)))
         except AttributeError:  # not on this platform
             return max(1, os.cpu_count() or 1)
+    if not isinstance(threads, (int, np.integer)) or isinstance(threads, bool):
+        raise InputError(f"threads must be a whole number or None, not {threads!r}.")
     if threads < 1:
         raise InputError(f"{threads} threads cannot work; give a positive number or None.")
-    return threads
+    return int(threads)
+
+
+def chunk_size(neighbours: int | None) -> int:
+    """Return the most points in a chunk: fewer where each comes with a list of many neighbours."""
+    return CHUNK if neighbours is None else max(1, min(CHUNK, _LISTED // neighbours))
 
 
 def spans(first: int, last: int, size: int) -> list[tuple[int, int]]:
@@ -38,11 +47,11 @@ def spans(first: int, last: int, size: int) -> list[tuple[int, int]]:
     return [(start, min(start + size, last)) for start in range(first, last, size)]
 
 
-def shrinking_spans(first: int, last: int, threads: int) -> list[tuple[int, int]]:
-    """Return (start, stop) of chunks, the last ones small so that all threads end together."""
+def shrinking_spans(first: int, last: int, threads: int, most: int) -> list[tuple[int, int]]:
+    """Return (start, stop) of chunks of at most `most`; small ones let all threads end together."""
     chunks = []
     while first < last:
-        size = min(CHUNK, max(_FEWEST, (last - first) // (2 * threads)))
+        size = min(most, max(_FEWEST, (last - first) // (2 * threads)))
         chunks.append((first, min(first + size, last)))
         first += size
     return chunks

@@ -13,12 +13,13 @@ from typing import Any, Unpack
 import numpy as np
 import numpy.typing as npt
 
+from pdtheory.errors import InputError
 from pdtheory.pointset.assemble import Collector
 from pdtheory.pointset.cloud import IntArray, PointCloud
 from pdtheory.pointset.estimate import PREPARING, refuse_nothing
 from pdtheory.pointset.options import Options, shows_options_of
-from pdtheory.pointset.parts import load_column, open_folder, part_path, write_part
-from pdtheory.pointset.pool import CHUNK, Flag, run_spans, shrinking_spans, spans
+from pdtheory.pointset.parts import discard_run, load_column, open_folder, part_path, write_part
+from pdtheory.pointset.pool import Flag, chunk_size, run_spans, shrinking_spans, spans
 from pdtheory.pointset.prepare import Run, prepare
 
 #: Queries in one part.
@@ -57,7 +58,7 @@ def estimate_to_disk(
     ------
     InputError
         If the input cannot be used, the folder holds a run of other input, or no query has enough
-        neighbours.
+        neighbours; then the folder is left as if there had been no run.
     FileAccessError
         If the folder cannot be written to.
     Cancelled
@@ -65,7 +66,8 @@ def estimate_to_disk(
     """
     run = prepare(points, **options)
     place = Path(folder)
-    blocks = spans(0, len(run.places), PART)
+    # Without queries there is one part without points, which says what the field would hold.
+    blocks = spans(0, len(run.places), PART) or [(0, 0)]
     plan = {
         "queries": len(run.places),
         "parts": len(blocks),
@@ -95,7 +97,11 @@ def estimate_to_disk(
             writing.result()
     finally:
         writer.shutdown(wait=True, cancel_futures=True)
-    refuse_nothing(load_column(place, "status"), load_column(place, "neighbours"), run.engine)
+    try:
+        refuse_nothing(load_column(place, "status"), load_column(place, "neighbours"), run.engine)
+    except InputError:
+        discard_run(place)
+        raise
     return len(blocks)
 
 
@@ -104,13 +110,16 @@ def _computed(
 ) -> Iterator[tuple[int, IntArray, Collector]]:
     """Yield number, queries and results of each missing part as soon as all its chunks are done."""
     engine = run.engine
+    most = chunk_size(engine.choice.neighbours)
     owner: dict[tuple[int, int], int] = {}
     lock = threading.Lock()
     left: dict[int, int] = {}
     for number in missing:
-        chunks = spans(*blocks[number], CHUNK)
+        chunks = spans(*blocks[number], most)
         if number == missing[-1]:
-            chunks = shrinking_spans(*blocks[number], run.threads)
+            chunks = shrinking_spans(*blocks[number], run.threads, most)
+        if not chunks:
+            yield number, engine.visit, Collector(engine, run.places, run.degree)
         owner |= dict.fromkeys(chunks, number)
         left[number] = len(chunks)
     open_parts: dict[int, Collector] = {}

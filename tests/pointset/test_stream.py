@@ -93,9 +93,35 @@ def test_some_points_are_read_in_the_order_asked_for(points, tmp_path):
         load_points(tmp_path / "run", [3000])
 
 
-def test_run_without_neighbours_is_refused(points, tmp_path):
+def test_run_without_neighbours_is_refused_and_leaves_the_folder_free(points, tmp_path):
+    folder = tmp_path / "run"
+    folder.mkdir()
+    (folder / "notes.txt").write_text("mine")
     with pytest.raises(InputError, match="radius of"):
-        estimate_to_disk(points, tmp_path / "run", **(HOW | {"radius": 1e-6}))
+        estimate_to_disk(points, folder, **(HOW | {"radius": 1e-6}))
+    assert [path.name for path in folder.iterdir()] == ["notes.txt"]
+    estimate_to_disk(points, folder, **HOW)
+    _compare(folder, estimate_directions(points, **HOW))
+
+
+def test_without_queries_there_is_a_field_without_points(points, tmp_path):
+    folder, none = tmp_path / "run", np.zeros((0, 3))
+    assert estimate_to_disk(points, folder, queries=none, **HOW) == 1
+    assert estimate_to_disk(points, folder, queries=none, resume=True, **HOW) == 1
+    expected, found = estimate_directions(points, queries=none, **HOW), load_points(folder)
+    assert len(found) == len(expected) == 0
+    assert found.orders == expected.orders
+    assert found.phi.shape == expected.phi.shape
+    assert load_points(folder, []).orders == expected.orders
+
+
+@pytest.mark.parametrize("numbers", [[1.5], [[1], [2, 3]], [[1, 2]], ["a"], None, 7])
+def test_only_numbers_of_points_are_taken(points, tmp_path, numbers):
+    if numbers is None:
+        numbers = np.ones(3, bool)
+    estimate_to_disk(points[:900], tmp_path / "run", **HOW)
+    with pytest.raises(InputError, match="list of numbers of points"):
+        load_points(tmp_path / "run", numbers)
 
 
 def test_choices_go_to_disk_too(points, tmp_path):
