@@ -162,7 +162,13 @@ class DirectionField:
         count = len(self)
         if isinstance(points, slice):
             return np.arange(count)[points]
-        chosen = np.asarray(points)
+        try:
+            chosen = np.asarray(points)
+        except (TypeError, ValueError):
+            raise InputError(
+                "rows of different lengths choose nothing; give a slice, a mask or a list of "
+                "indices."
+            ) from None
         if chosen.ndim == 1 and chosen.dtype == np.bool_:
             if len(chosen) != count:
                 raise InputError(

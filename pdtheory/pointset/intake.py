@@ -68,16 +68,22 @@ def as_vectors(values: npt.ArrayLike, name: str) -> tuple[FloatArray, float]:
     InputError
         If they are not real numbers in three columns.
     """
+    array = _as_array(values, name)
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise InputError(f"{name} have shape {array.shape}; give (n, 3).")
+    roundoff = float(np.finfo(array.dtype).eps) / 2 if array.dtype.kind == "f" else 0.0
+    return np.ascontiguousarray(array, dtype=np.float64), max(roundoff, 2.0**-53)
+
+
+def _as_array(values: npt.ArrayLike, name: str) -> npt.NDArray[Any]:
+    """Return values as an array of real numbers of any shape, or refuse them."""
     try:
         array = np.asarray(values)
         if array.dtype.kind not in "fiub":
             raise TypeError
     except (TypeError, ValueError):
         raise InputError(f"{name} must be an array of real numbers.") from None
-    if array.ndim != 2 or array.shape[1] != 3:
-        raise InputError(f"{name} have shape {array.shape}; give (n, 3).")
-    roundoff = float(np.finfo(array.dtype).eps) / 2 if array.dtype.kind == "f" else 0.0
-    return np.ascontiguousarray(array, dtype=np.float64), max(roundoff, 2.0**-53)
+    return array
 
 
 def take_in(
@@ -167,8 +173,8 @@ def _mode(
 ) -> str | FloatArray:
     """Return how the side of the normals is found: one of the words but "auto", or a viewpoint."""
     if not isinstance(orient, str):
-        viewpoint = np.asarray(orient)
-        if viewpoint.shape != (3,) or viewpoint.dtype.kind not in "fiu":
+        viewpoint = _as_array(orient, "the viewpoint")
+        if viewpoint.shape != (3,):
             raise InputError(f"a viewpoint is three numbers, not an array {viewpoint.shape}.")
         if not np.isfinite(viewpoint).all():
             raise InputError("the viewpoint has NaN or infinite coordinates.")
@@ -217,7 +223,7 @@ def _sides(
 
 def _resolve_queries(queries: npt.ArrayLike, places: FloatArray) -> tuple[FloatArray, Any]:
     """Return positions, and the indices of points if the queries were given as such."""
-    array = np.asarray(queries)
+    array = _as_array(queries, "queries")
     if array.ndim == 1 and array.dtype.kind in "iu":
         count = len(places)
         if len(array) and not 0 <= int(array.min()) <= int(array.max()) < count:

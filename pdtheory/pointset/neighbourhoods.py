@@ -45,7 +45,7 @@ def choose(
     radius, neighbours, radius_relative
         As given by the user; exactly one must not be None.
     diagonal : float
-        Diagonal of the bounding box.
+        Diagonal of the bounding box, positive.
     count : int
         Number of finite points.
 
@@ -54,6 +54,7 @@ def choose(
     InputError
         If not exactly one is given, or it cannot be used.
     """
+    radius, neighbours, radius_relative = map(_plain, (radius, neighbours, radius_relative))
     given = sum(value is not None for value in (radius, neighbours, radius_relative))
     if given != 1:
         raise InputError(
@@ -77,8 +78,6 @@ def choose(
         raise InputError(f"{name} must be positive and finite, not {size}.")
     if radius is not None:
         return Choice(float(radius), None)
-    if diagonal <= 0:
-        raise InputError("all points are equal, so a radius relative to their extent is zero.")
     return Choice(float(size) * diagonal, None)
 
 
@@ -107,6 +106,7 @@ def choose_radii(
     InputError
         If they cannot be used.
     """
+    radius = _plain(radius)
     if isinstance(radius, str):
         if radius != "auto":
             raise InputError(f"radius must be a number or 'auto', not {radius!r}.")
@@ -147,6 +147,11 @@ def nearest(tree: Any, queries: FloatArray, count: int) -> tuple[FloatArray, Any
     if count == 1:
         distances, indices = distances[:, None], indices[:, None]
     return distances[:, -1], np.ascontiguousarray(indices, dtype=np.int64)
+
+
+def _plain(value: Any) -> Any:
+    """Return the number that an array without axes holds, and anything else as it is."""
+    return value[()] if isinstance(value, np.ndarray) and value.ndim == 0 else value
 
 
 def _median_radii(points: FloatArray, counts: Sequence[int]) -> list[float]:

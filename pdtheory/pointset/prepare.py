@@ -147,8 +147,13 @@ def _check_orders(orders: Sequence[int], degree: int) -> IntArray:
     """Return the orders, ascending and once each."""
     if not isinstance(degree, (int, np.integer)) or not 2 <= degree <= MAX_DEGREE:
         raise InputError(f"degree {degree!r} is not available; give one from 2 to {MAX_DEGREE}.")
-    wanted = sorted(set(orders))
-    for order in wanted:
+    try:
+        given = list(orders)
+    except TypeError:
+        raise InputError(
+            f"orders must be a list of orders such as (2, 3), not {orders!r}."
+        ) from None
+    for order in given:
         if not isinstance(order, (int, np.integer)) or order < 1:
             raise InputError(f"order {order!r} is not available; orders are 1, 2, 3, ...")
         if order > degree:
@@ -156,16 +161,15 @@ def _check_orders(orders: Sequence[int], degree: int) -> IntArray:
                 f"order {order} is above the degree {degree} of the regression; "
                 f"give degree {order} or more, or leave that order out."
             )
-    return np.array(wanted, dtype=np.int64)
+    return np.array(sorted(set(given)), dtype=np.int64)
 
 
 def _check_words(norm: str, frame: str, weight_distance: str) -> None:
     """Refuse words that mean nothing."""
-    if norm not in ("l1", "l2"):
-        raise InputError(f"norm {norm!r} is not known; give 'l2' or 'l1'.")
-    if frame not in _FRAMES:
-        raise InputError(f"frame {frame!r} is not known; give one of {', '.join(_FRAMES)}.")
-    if weight_distance not in ("3d", "planar"):
-        raise InputError(
-            f"weight_distance {weight_distance!r} is not known; give '3d' or 'planar'."
-        )
+    for name, word, known in (
+        ("norm", norm, ("l2", "l1")),
+        ("frame", frame, tuple(_FRAMES)),
+        ("weight_distance", weight_distance, ("3d", "planar")),
+    ):
+        if not isinstance(word, str) or word not in known:
+            raise InputError(f"{name} {word!r} is not known; give one of {', '.join(known)}.")

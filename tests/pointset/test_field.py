@@ -104,6 +104,7 @@ def test_a_part_is_saved_and_read_like_a_whole(field, tmp_path):
         ([1.5], "float64"),
         ("abc", "choose nothing"),
         ([[1, 2]], r"shape \(1, 2\)"),
+        ([[1], [2, 3]], "rows of different lengths choose nothing"),
     ],
 )
 def test_bad_choices_of_points_are_refused(field, points, words):

@@ -34,7 +34,20 @@ def cloud():
         ({"radius": 0.3, "degree": 40}, "degree 40"),
         ({"radius": 0.3, "orders": (0,)}, "order 0"),
         ({"radius": 0.3, "norm": "l3"}, "norm 'l3'"),
+        ({"radius": 0.3, "orders": 3}, "orders must be a list of orders"),
+        ({"radius": 0.3, "orders": None}, "orders must be a list of orders"),
+        ({"radius": 0.3, "orders": [2, "3"]}, "order '3' is not available"),
+        ({"radius": 0.3, "orders": [[2], [3]]}, r"order \[2\] is not available"),
         ({"radius": 0.3, "threads": 0}, "threads"),
+        ({"radius": 0.3, "threads": "4"}, "threads must be a whole number or None, not '4'"),
+        ({"radius": 0.3, "threads": 2.5}, "threads must be a whole number or None, not 2.5"),
+        ({"radius": 0.3, "frame": ["tangent"]}, "frame .* is not known"),
+        ({"radius": 0.3, "norm": np.array(["l1", "l2"])}, "norm .* is not known"),
+        ({"radius": 0.3, "weight_distance": None}, "weight_distance None is not known"),
+        ({"radius": 0.3, "orient": [1, [2]]}, "the viewpoint must be an array of real numbers"),
+        ({"radius": 0.3, "orient": [1, 2]}, "a viewpoint is three numbers"),
+        ({"radius": 0.3, "queries": [[1, 2], [3]]}, "queries must be an array of real numbers"),
+        ({"radius": 0.3, "queries": ["a"]}, "queries must be an array of real numbers"),
         ({"radius": 0.3, "queries": [4000]}, "outside 0..3999"),
         ({"radius": 0.3, "normals": np.ones((3, 3))}, "3 normals for 4000 points"),
         ({"radius": 0.3, "frame": "given"}, "give normals"),
@@ -99,6 +112,15 @@ def test_threads_change_no_bit(cloud, how):
     for order in one.orders:
         np.testing.assert_array_equal(one[order].angle, three[order].angle)
         np.testing.assert_array_equal(one[order].offsets, three[order].offsets)
+
+
+def test_numbers_may_be_arrays_without_axes(cloud):
+    plain = estimate_directions(cloud, radius=0.3, degree=4, queries=[0, 1])
+    for radius in (np.array(0.3), [np.array(0.3)]):
+        same = estimate_directions(cloud, radius=radius, degree=4, queries=[0, 1])
+        np.testing.assert_array_equal(same.phi, plain.phi)
+    by_count = estimate_directions(cloud, neighbours=np.array(80), degree=4, queries=[0, 1])
+    assert by_count.neighbours.tolist() == [80, 80]
 
 
 def test_queries_by_index_position_and_mask_agree(cloud):
