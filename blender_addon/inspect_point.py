@@ -7,6 +7,9 @@ import bmesh
 import bpy
 
 from pdtheory.blender.result import (
+    BALL_KEY,
+    POINTS_KEY,
+    VERTICES_KEY,
     at_samples,
     collection_of,
     field_of,
@@ -17,8 +20,6 @@ from pdtheory.conventions import Kind, Status
 from pdtheory.errors import InputError, PdtheoryError
 
 from .jobs import has_result, surface_object
-
-_BALL_KEY = "pdtheory_ball"
 
 
 def active_vertex(thing):
@@ -50,13 +51,26 @@ def active_point(thing):
     """
     strokes = strokes_of(thing)
     field = field_of(strokes)
-    if thing.mode == "EDIT" and at_samples(strokes):
-        raise InputError("the result is at samples; leave edit mode and type the number of one.")
+    if thing.mode == "EDIT":
+        _check_numbers(thing, strokes)
     vertex = active_vertex(thing)
     point = point_of_vertex(strokes, vertex)
     if point is None:
         raise InputError(f"vertex {vertex} has no result; choose another one.")
     return field, point
+
+
+def _check_numbers(thing, strokes):
+    """Refuse to look for a vertex in edit mode where its number says nothing about the result."""
+    if at_samples(strokes):
+        raise InputError("the result is at samples; leave edit mode and type the number of one.")
+    computed = strokes[POINTS_KEY].get(VERTICES_KEY)
+    count = len(bmesh.from_edit_mesh(thing.data).verts) if thing.type == "MESH" else computed
+    if computed not in (None, count):
+        raise InputError(
+            f"{thing.name} has {count} vertices in edit mode, and {computed} where the directions "
+            "were computed: it was edited since, or has modifiers; compute without them."
+        )
 
 
 def table(field, point):
@@ -122,7 +136,7 @@ class ShowBall(bpy.types.Operator):
     def execute(self, context):
         thing = surface_object(context)
         strokes = strokes_of(thing)
-        for child in [child for child in strokes.children if _BALL_KEY in child]:
+        for child in [child for child in strokes.children if BALL_KEY in child]:
             bpy.data.objects.remove(child)
             return {"FINISHED"}
         try:
@@ -131,7 +145,7 @@ class ShowBall(bpy.types.Operator):
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         ball = bpy.data.objects.new(f"{thing.name} neighbourhood", None)
-        ball[_BALL_KEY] = True
+        ball[BALL_KEY] = True
         ball.empty_display_type = "SPHERE"
         ball.empty_display_size = float(field.radius[point])
         ball.parent = strokes

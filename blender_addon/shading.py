@@ -4,7 +4,7 @@
 import bpy
 from bpy.props import EnumProperty
 
-from pdtheory.blender.shading import cover_with_strength, strength_orders, uncover
+from pdtheory.blender.shading import COVERED_KEY, cover_with_strength, strength_orders, uncover
 
 from .jobs import surface_object
 
@@ -34,7 +34,8 @@ class ShowStrength(bpy.types.Operator):
     @classmethod
     def poll(cls, context):
         thing = surface_object(context)
-        if thing is None or thing.type != "MESH" or not strength_orders(thing.data):
+        known = thing is not None and thing.type == "MESH"
+        if not known or not (strength_orders(thing.data) or COVERED_KEY in thing):
             cls.poll_message_set("Compute directions at the vertices of a mesh first")
             return False
         if thing.mode == "EDIT":

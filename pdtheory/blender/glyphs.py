@@ -17,6 +17,9 @@ MODIFIER_NAME: Final = "Principal directions"
 #: Property of a stroke object: the orders it holds.
 ORDERS_KEY: Final = "pdtheory_orders"
 
+#: Property of a stroke object: the inputs that were set by the size of its surface.
+_PROPOSED_KEY: Final = "pdtheory_proposed"
+
 _KIND: Final = {"FLOAT": "value", "INT": "value", "FLOAT_VECTOR": "vector"}
 
 
@@ -79,19 +82,36 @@ def add_modifier(glyphs: Any, data: GlyphData, strokes: int) -> Any:
     for order in ORDERS:
         compat.set_input(modifier, f"Material {order}", order_material(order))
     compat.set_input(modifier, "Style", "Needles")
-    spacing = data.spots.spacing_for(strokes)
-    compat.set_input(modifier, "Spacing", spacing)
-    compat.set_input(modifier, "Length", REACH * spacing)
+    glyphs[_PROPOSED_KEY] = {}
+    glyphs[ORDERS_KEY] = []
+    propose(glyphs, data, strokes)
     offer_orders(glyphs, data)
     return modifier
 
 
-def offer_orders(glyphs: Any, data: GlyphData) -> None:
-    """Switch on the orders that an object holds, and off those it does not."""
+def propose(glyphs: Any, data: GlyphData, strokes: int) -> None:
+    """Set what depends on the size of the surface, unless it was tuned since the last proposal."""
     modifier = find_modifier(glyphs)
+    spacing = data.spots.spacing_for(strokes)
+    before = glyphs.get(_PROPOSED_KEY)
+    if before is None:
+        # From a file of a version that kept no account of it.
+        return
+    for name, value in {"Spacing": spacing, "Length": REACH * spacing}.items():
+        if name not in before or compat.get_input(modifier, name) == before[name]:
+            compat.set_input(modifier, name, value)
+            # As the modifier holds it: in single precision.
+            before[name] = compat.get_input(modifier, name)
+
+
+def offer_orders(glyphs: Any, data: GlyphData) -> None:
+    """Switch on the orders that are new on an object, and off those it does not hold."""
+    modifier = find_modifier(glyphs)
+    before = set(glyphs.get(ORDERS_KEY, ()))
     present = set(np.unique(data.attributes["order"]).tolist()) if len(data) else set()
     for order in ORDERS:
-        compat.set_input(modifier, f"Order {order}", order in present)
+        if order not in present or order not in before:
+            compat.set_input(modifier, f"Order {order}", order in present)
     glyphs[ORDERS_KEY] = sorted(present)
 
 

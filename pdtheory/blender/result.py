@@ -8,32 +8,46 @@ opened.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any, Final
 
 import bpy
 import numpy as np
 from mathutils import Matrix
+from mathutils.bvhtree import BVHTree
 
-from pdtheory.blender.glyphs import add_glyphs, add_modifier, fill_mesh, find_modifier, offer_orders
-from pdtheory.blender.shading import STRENGTH, strength_orders
+from pdtheory.blender.glyphs import (
+    add_glyphs,
+    add_modifier,
+    fill_mesh,
+    find_modifier,
+    offer_orders,
+    propose,
+)
+from pdtheory.blender.shading import store_strengths
 from pdtheory.blender.source import Source, read_object
-from pdtheory.blender.storage import VERTEX, fill_points, put, read_field, take
-from pdtheory.conventions import Status
+from pdtheory.blender.storage import POINTS_KEY, VERTEX, fill_points, read_field, take
 from pdtheory.drawing.glyphs import GlyphData, glyph_data
 from pdtheory.errors import InputError
-from pdtheory.pointset.cloud import FloatArray
+from pdtheory.pointset.cloud import FloatArray, IntArray
 from pdtheory.pointset.field import DirectionField
 from pdtheory.pointset.summary import order_summaries, status_sentences
-
-#: Property of a stroke object that refers to its points.
-POINTS_KEY: Final = "pdtheory_points"
 
 #: Property of a stroke object that tells several fields on one surface apart.
 SUFFIX_KEY: Final = "pdtheory_suffix"
 
+#: Property of the object that shows the neighbourhood of a point.
+BALL_KEY: Final = "pdtheory_ball"
+
+#: Property of the points: the number of vertices of the mesh that was computed on.
+VERTICES_KEY: Final = "pdtheory_vertices"
+
 #: About how many points of a result carry strokes at first.
 STROKES: Final = 300
+
+#: Of a field from a file so many points are asked whether they lie on the object.
+_ASKED: Final = 2000
 
 #: Fields of this session in double precision, by the `session_uid` of their points; a file holds
 #: single.
@@ -87,13 +101,16 @@ def show_result(
     if data is None:
         data = glyph_data(field)
     name = f"{thing.name} directions{suffix}"
-    children = [child for child in thing.children if child.get(SUFFIX_KEY) == suffix]
-    if children:
-        shown = children[0]
+    shown = replaceable_strokes(thing, suffix)
+    if shown is not None:
+        if shown.data.users > 1:
+            # A linked duplicate shows its own result.
+            shown.data = bpy.data.meshes.new(name)
         fill_mesh(shown.data, data)
         if find_modifier(shown) is None:
             add_modifier(shown, data, strokes)
         else:
+            propose(shown, data, strokes)
             offer_orders(shown, data)
     else:
         home = collection_of(thing)
@@ -104,18 +121,61 @@ def show_result(
     before = shown.get(POINTS_KEY)
     points = bpy.data.meshes.new(f"{name} points")
     fill_points(points, field, source.vertex)
+    points[VERTICES_KEY] = source.vertices
     shown[POINTS_KEY] = points
     if before is not None and before.users == 0:
         bpy.data.meshes.remove(before)
     _remember(points, field)
+    for child in [child for child in shown.children if BALL_KEY in child]:
+        # It shows a neighbourhood of the earlier result.
+        bpy.data.objects.remove(child)
     if not suffix:
-        _show_on_surface(thing, source, field)
+        store_strengths(thing, source, field)
     return shown
 
 
+def replaceable_strokes(thing: Any, suffix: str = "") -> Any | None:
+    """Return the stroke object that the next result on an object replaces, None if there is none.
+
+    Raises
+    ------
+    InputError
+        If it cannot be replaced now.
+    """
+    for child in thing.children:
+        if child.get(SUFFIX_KEY) != suffix:
+            continue
+        if child.library is not None or child.data.library is not None:
+            raise InputError(
+                f"{child.name} is linked from another file; make it local, delete it, or compute "
+                "in its own file."
+            )
+        if child.mode == "EDIT":
+            raise InputError(f"{child.name} is in edit mode; leave it first.")
+        return child
+    return None
+
+
 def collection_of(thing: Any) -> Any:
-    """Return the collection for what belongs to an object: its own, or else the scene's."""
-    return (thing.users_collection or (bpy.context.scene.collection,))[0]
+    """Return the collection for what belongs to an object: one that can be seen and added to.
+
+    That is one of its own in the current view layer, else the active one, else the scene's.
+    """
+    layer = bpy.context.view_layer.layer_collection
+    seen = {each.collection for each in _visible(layer)}
+    for collection in (*thing.users_collection, bpy.context.collection):
+        linked = collection.library is not None or collection.override_library is not None
+        if collection in seen and not linked:
+            return collection
+    return layer.collection
+
+
+def _visible(layer: Any) -> Iterator[Any]:
+    """Give a layer collection and those below it, but those that are excluded or hidden."""
+    if layer.is_visible and not layer.exclude:
+        yield layer
+    for child in layer.children:
+        yield from _visible(child)
 
 
 def field_of(strokes: Any) -> DirectionField:
@@ -158,7 +218,7 @@ def point_of_vertex(strokes: Any, vertex: int) -> int | None:
 
 
 def source_for(thing: Any, field: DirectionField) -> Source:
-    """Find out how the points of a field from a file lie on an object.
+    """Find out how the points of a field from a file lie on an object, at its vertices or between.
 
     Raises
     ------
@@ -171,6 +231,10 @@ def source_for(thing: Any, field: DirectionField) -> Source:
         for points, linear in ((local, np.eye(3)), (source.cloud.points, source.linear)):
             if _same_points(field.points, points):
                 return replace(source, linear=linear)
+            if source.cloud.faces is not None and _on_surface(
+                field.points, points, source.cloud.faces
+            ):
+                return replace(source, linear=linear, vertex=None)
     raise InputError(
         f"the field of {len(field)} points does not lie on {thing.name} "
         f"({source.vertices} vertices); import it on the object it was computed on."
@@ -186,6 +250,17 @@ def _same_points(wanted: FloatArray, points: FloatArray) -> bool:
     return bool(np.abs(wanted[finite] - points[finite]).max(initial=0.0) <= 1e-5 * size)
 
 
+def _on_surface(wanted: FloatArray, points: FloatArray, faces: IntArray) -> bool:
+    """Return True if points lie on triangles, within single precision; some of many are asked."""
+    finite = wanted[np.isfinite(wanted).all(axis=1)]
+    if not len(finite):
+        return False
+    size = float(np.ptp(points, axis=0).max()) + float(np.abs(points).max())
+    tree = BVHTree.FromPolygons(points.tolist(), faces.tolist(), all_triangles=True)
+    some = finite[:: -(-len(finite) // _ASKED)]
+    return all(tree.find_nearest(point, 1e-5 * size)[0] is not None for point in some.tolist())
+
+
 def forget_all() -> None:
     """Drop the fields kept in memory; what the file holds stays."""
     _exact.clear()
@@ -196,27 +271,6 @@ def _remember(points: Any, field: DirectionField) -> None:
     for uid in [uid for uid in _exact if uid not in alive]:
         del _exact[uid]
     _exact[points.session_uid] = field
-
-
-def _show_on_surface(thing: Any, source: Source, field: DirectionField) -> None:
-    """Put the largest strength of each order, and the status, onto the vertices of the surface."""
-    mesh = thing.data
-    fits = thing.type == "MESH" and source.vertex is not None and mesh.library is None
-    if not fits or len(mesh.vertices) != source.vertices or thing.mode == "EDIT":
-        return
-    status = np.full(source.vertices, int(Status.TOO_FEW_NEIGHBOURS))
-    status[source.vertex] = field.status
-    put(mesh, "directions_status", "INT", status)
-    for order in strength_orders(mesh):
-        mesh.attributes.remove(mesh.attributes[f"{STRENGTH}{order}"])
-    for order in field.orders:
-        rows = field[order]
-        largest = np.zeros(len(field))
-        np.maximum.at(largest, rows.point_index, rows.strength)
-        values = np.zeros(source.vertices)
-        values[source.vertex] = largest
-        put(mesh, f"{STRENGTH}{order}", "FLOAT", values)
-    mesh.update()
 
 
 def describe(field: DirectionField, *, loose: int = 0) -> list[str]:

@@ -1,4 +1,4 @@
-"""Materials that show what was stored on the surface, over those of the user."""
+"""Strengths on the vertices of a surface, and materials that show them over those of the user."""
 
 from __future__ import annotations
 
@@ -9,10 +9,16 @@ import numpy as np
 
 from pdtheory.blender import compat
 from pdtheory.blender.needles import linear
-from pdtheory.conventions import ORDER_COLOURS
+from pdtheory.blender.source import Source
+from pdtheory.blender.storage import put
+from pdtheory.conventions import ORDER_COLOURS, Status
+from pdtheory.pointset.field import DirectionField
 
 #: Attribute of a surface with the largest strength of an order at each vertex, less the order.
 STRENGTH: Final = "directions_strength_"
+
+#: Attribute of a surface with the status of each vertex.
+_STATUS: Final = "directions_status"
 
 #: Property of an object: for each slot the link and the object's material that a strength covers.
 COVERED_KEY: Final = "pdtheory_covered"
@@ -25,6 +31,33 @@ def strength_orders(mesh: Any) -> tuple[int, ...]:
     """Return the orders whose strength a mesh carries, ascending."""
     ours = {a.name for a in mesh.attributes if (a.domain, a.data_type) == ("POINT", "FLOAT")}
     return tuple(order for order in sorted(ORDER_COLOURS) if f"{STRENGTH}{order}" in ours)
+
+
+def store_strengths(thing: Any, source: Source, field: DirectionField) -> None:
+    """Put the largest strength of each order, and the status, onto the vertices of the surface.
+
+    Those of an earlier field are removed, also where the new one was not computed at the vertices.
+    """
+    mesh = thing.data
+    if thing.type != "MESH" or mesh.library is not None or thing.mode == "EDIT":
+        return
+    stale = [_STATUS, *(f"{STRENGTH}{order}" for order in strength_orders(mesh))]
+    for name in stale:
+        if name in mesh.attributes:
+            mesh.attributes.remove(mesh.attributes[name])
+    if source.vertex is None or len(mesh.vertices) != source.vertices:
+        return
+    status = np.full(source.vertices, int(Status.TOO_FEW_NEIGHBOURS))
+    status[source.vertex] = field.status
+    put(mesh, _STATUS, "INT", status)
+    for order in field.orders:
+        rows = field[order]
+        largest = np.zeros(len(field))
+        np.maximum.at(largest, rows.point_index, rows.strength)
+        values = np.zeros(source.vertices)
+        values[source.vertex] = largest
+        put(mesh, f"{STRENGTH}{order}", "FLOAT", values)
+    mesh.update()
 
 
 def cover_with_strength(thing: Any, order: int) -> None:

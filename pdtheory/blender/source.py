@@ -12,6 +12,7 @@ import bpy
 import numpy as np
 import numpy.typing as npt
 
+from pdtheory.blender.storage import POINTS_KEY
 from pdtheory.errors import InputError
 from pdtheory.pointset.cloud import FloatArray, IntArray, PointCloud
 
@@ -64,7 +65,8 @@ def read_object(
     Raises
     ------
     InputError
-        If the object has no points, or no surface to sample, or is scaled to nothing.
+        If the object has no points, or no surface to sample, or is scaled to nothing, or cannot be
+        read in its present mode.
     """
     if thing is None:
         raise InputError("no object is active; select one.")
@@ -72,6 +74,11 @@ def read_object(
         raise InputError(
             f"{thing.name} has no points to compute on; select a mesh, point cloud, curve or text."
         )
+    if POINTS_KEY in thing:
+        raise InputError(f"{thing.name} draws directions; select the surface they belong to.")
+    if evaluated and thing.mode == "SCULPT" and any(m.type == "MULTIRES" for m in thing.modifiers):
+        # Blender gives the mesh without its finer levels then.
+        raise InputError(f"{thing.name} is being sculpted with Multiresolution; leave Sculpt Mode.")
     linear = np.array(thing.matrix_world.to_3x3(), dtype=np.float64)
     if abs(np.linalg.det(linear)) <= 1e-12 * np.linalg.norm(linear) ** 3:
         raise InputError(f"{thing.name} is scaled to zero along an axis; give it a thickness.")

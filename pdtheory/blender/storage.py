@@ -12,6 +12,9 @@ from pdtheory.pointset.cloud import IntArray
 from pdtheory.pointset.directions import OrderDirections
 from pdtheory.pointset.field import DirectionField
 
+#: Property of a stroke object that refers to its points.
+POINTS_KEY: Final = "pdtheory_points"
+
 #: Attribute of the points that says to which vertex of the surface each belongs.
 VERTEX: Final = "vertex"
 
@@ -29,7 +32,8 @@ def put(mesh: Any, name: str, kind: str, values: npt.NDArray[np.generic]) -> Non
         attribute = None
     if attribute is None:
         attribute = mesh.attributes.new(name, kind, "POINT")
-    if len(values):
+    # A vertex group of the user may have taken the name.
+    if attribute is not None and len(values):
         dtype = np.int32 if kind == "INT" else np.float32
         attribute.data.foreach_set(key, np.ascontiguousarray(values, dtype=dtype).ravel())
 
