@@ -192,7 +192,7 @@ def _to_files(
     with progress_bar("Reading", quiet=quiet) as report:
         options["progress"] = report
         field = estimate_directions(cloud, **options)
-    _refuse_empty(field.status, source)
+        _refuse_empty(field.status, source)
     for target in output:
         write_field(field, target)
     if quiet:
@@ -214,14 +214,18 @@ def _to_folder(
 ) -> None:
     """Estimate part by part into a folder."""
     from pdtheory.pointset import estimate_to_disk
-    from pdtheory.pointset.parts import load_column
+    from pdtheory.pointset.parts import discard_run, load_column
     from pdtheory.pointset.summary import status_sentences
 
     with progress_bar("Reading", quiet=quiet) as report:
         options["progress"] = report
         parts = estimate_to_disk(cloud, folder, resume=resume, **options)
-    status = load_column(folder, "status")
-    _refuse_empty(status, source)
+        status = load_column(folder, "status")
+        try:
+            _refuse_empty(status, source)
+        except InputError:
+            discard_run(folder)
+            raise
     if quiet:
         return
     for sentence in status_sentences(status):

@@ -125,6 +125,22 @@ def test_unanswerable_input(refused: Refused, tmp_path: Path, degree: int) -> No
     assert not target.exists()
 
 
+@pytest.mark.parametrize("radius", [1e-6, 0.5])
+def test_folder_takes_another_run_after_one_that_answers_nothing(
+    cli: Run, refused: Refused, tmp_path: Path, radius: float
+) -> None:
+    line = points_file(tmp_path, np.outer(np.linspace(0, 1, 300), [1, 2, 3]), "line.xyz")
+    folder = tmp_path / "run"
+    run = ("estimate", line, "-o", folder, "--degree", 2, "--orders", 2)
+    for _ in range(2):
+        assert "holds a run" not in refused(*run, "--radius", radius)
+        assert not list(folder.iterdir())
+    plane = points_file(
+        tmp_path, np.random.default_rng(0).random((300, 3)) * [1, 1, 0], "plane.xyz"
+    )
+    assert cli("estimate", plane, *run[2:], "--radius", 0.5, "-q").exit_code == 0
+
+
 def test_radius_that_catches_nobody(refused: Refused, bumpy_cloud: Path, tmp_path: Path) -> None:
     target = tmp_path / "field.npz"
     message = refused("estimate", bumpy_cloud, "-o", target, "--radius", 1e-6)
