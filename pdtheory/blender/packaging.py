@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 import subprocess
 import sys
 import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
+from hashlib import sha256
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Final
@@ -39,6 +41,9 @@ _LIBRARIES: Final = (
 )
 
 _NUMPY: Final = "numpy"
+
+#: What the wheel of pdtheory holds.
+_PACKAGES: Final = ("pdtheory", "synthetic_surfaces")
 
 
 @dataclass(frozen=True)
@@ -157,7 +162,8 @@ def build_zip(runtime: Runtime, platform: str, folder: Path) -> Path:
         wheels = stage / "wheels"
         wheels.mkdir()
         pip = _pip()
-        run_tool(*pip, "wheel", "--quiet", "--no-deps", "--wheel-dir", str(wheels), str(root))
+        library = _stage_library(root, Path(scratch) / "library")
+        run_tool(*pip, "wheel", "--quiet", "--no-deps", "--wheel-dir", str(wheels), str(library))
         _download(pip, runtime, platform, wheels)
         version = _complete_manifest(stage, runtime, platform)
         target = folder / f"principal_directions-{version}-{runtime.tag}-{platform}.zip"
@@ -170,6 +176,27 @@ def build_zip(runtime: Runtime, platform: str, folder: Path) -> Path:
         with atomic_path(target) as temporary:
             shutil.copyfile(built, temporary)
     return target
+
+
+def _stage_library(root: Path, folder: Path) -> Path:
+    """Copy what the wheel of pdtheory is made of, under a version that tells its contents.
+
+    Where an extension is installed again, Blender keeps a wheel of the same version.
+    """
+    for name in _PACKAGES:
+        ignored = shutil.ignore_patterns("__pycache__", "*.pyc")
+        shutil.copytree(root / name, folder / name, ignore=ignored)
+    digest = sha256()
+    for path in sorted(path for path in folder.rglob("*") if path.is_file()):
+        digest.update(path.relative_to(folder).as_posix().encode() + b"\0" + path.read_bytes())
+    project = (root / "pyproject.toml").read_text(encoding="utf-8")
+    for name in ("README.md", "LICENSE"):
+        shutil.copy(root / name, folder)
+    # A letter first: a version part of digits alone would lose its leading zeros.
+    told = rf'version = "\1+s{digest.hexdigest()[:12]}"'
+    project = re.sub(r'^version = "(.*)"$', told, project, count=1, flags=re.MULTILINE)
+    (folder / "pyproject.toml").write_text(project, encoding="utf-8")
+    return folder
 
 
 def _download(pip: Sequence[str], runtime: Runtime, platform: str, folder: Path) -> None:

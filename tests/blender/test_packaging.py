@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 import subprocess
 import sys
 import tomllib
@@ -27,7 +28,8 @@ def no_downloads(monkeypatch):
             name = "library-1.0-py3-none-any.whl"
             if folder is None:
                 folder = command[command.index("--wheel-dir") + 1]
-                name = "pdtheory-0.1.0-py3-none-any.whl"
+                project = tomllib.loads((Path(command[-1]) / "pyproject.toml").read_text())
+                name = f"pdtheory-{project['project']['version']}-py3-none-any.whl"
             with zipfile.ZipFile(f"{folder}/{name}", "w") as wheel:
                 wheel.writestr("nothing.txt", "")
             return ""
@@ -58,6 +60,7 @@ def test_zip_has_everything_and_is_valid(tmp_path, no_downloads, runtime, platfo
     assert manifest.get("blender_version_max") == runtime.blender_max
     assert {name.removeprefix("./") for name in manifest["wheels"]} <= names
     assert not any("numpy" in name for name in manifest["wheels"])
+    assert any(f"pdtheory-{pdtheory.__version__}+s" in name for name in manifest["wheels"])
 
 
 @pytest.mark.blender
@@ -81,6 +84,30 @@ def test_a_folder_that_cannot_be_made_is_a_sentence(tmp_path, folder):
     (tmp_path / "file").write_text("")
     with pytest.raises(FileAccessError, match="cannot make the folder"):
         packaging.build_zip(packaging.RUNTIMES[0], "linux-x64", tmp_path / folder)
+
+
+def test_the_wheel_of_another_source_has_another_version(tmp_path):
+    """Blender keeps a wheel that it has, by its version, when an extension is installed again."""
+
+    def version():
+        folder = tmp_path / "library"
+        shutil.rmtree(folder, ignore_errors=True)
+        packaging._stage_library(root, folder)
+        return tomllib.loads((folder / "pyproject.toml").read_text())["project"]["version"]
+
+    root = tmp_path / "root"
+    for package in ("pdtheory", "synthetic_surfaces"):
+        (root / package / "__pycache__").mkdir(parents=True)
+        (root / package / "__init__.py").write_text("a = 1\n")
+    for name in ("README.md", "LICENSE"):
+        (root / name).write_text("")
+    (root / "pyproject.toml").write_text('[project]\nversion = "1.2.3"\n[tool]\nversion = "4"\n')
+    before = version()
+    assert before.startswith("1.2.3+s")
+    (root / "pdtheory" / "__pycache__" / "a.pyc").write_text("compiled")
+    assert version() == before
+    (root / "pdtheory" / "__init__.py").write_text("a = 2\n")
+    assert version() != before
 
 
 def test_unknown_platform_and_python_are_refused(tmp_path):
