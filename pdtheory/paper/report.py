@@ -13,7 +13,7 @@ from itertools import groupby
 from pathlib import Path
 
 from pdtheory.atomic import atomic_path
-from pdtheory.errors import InputError, MissingDependencyError
+from pdtheory.errors import FileAccessError, InputError, MissingDependencyError
 from pdtheory.paper.claims.core import Result, Verdict
 
 #: Formats by suffix.
@@ -53,6 +53,8 @@ def check_requirements(target: Path) -> str:
         If the suffix is not one of the three.
     MissingDependencyError
         If matplotlib (figures) or, for HTML, latex2mathml is not installed.
+    FileAccessError
+        If a file stands where the folder of figures is to be.
     """
     suffix = target.suffix.lower()
     if suffix not in SUFFIXES:
@@ -65,6 +67,12 @@ def check_requirements(target: Path) -> str:
         raise MissingDependencyError(
             f"a {suffix} report needs {' and '.join(missing)}; "
             f"install it with `pip install {' '.join(missing)}` (extra figures)."
+        )
+    folder = target.with_name(_figure_folder(target))
+    if suffix != ".html" and folder.exists() and not folder.is_dir():
+        raise FileAccessError(
+            f"cannot write the figures of {target}: {folder} is a file, and a folder of that name "
+            "is needed; move the file away."
         )
     return suffix
 
@@ -91,7 +99,7 @@ def write_report(results: Sequence[Result], target: Path) -> list[Path]:
     InputError, MissingDependencyError
         As :func:`check_requirements`.
     FileAccessError
-        If a file cannot be written.
+        If a file or the folder cannot be written.
     """
     from pdtheory.paper.report_figures import figures_of, rendered
 
@@ -103,7 +111,10 @@ def write_report(results: Sequence[Result], target: Path) -> list[Path]:
     if suffix != ".html":
         kind = {".md": "svg", ".tex": "pdf"}[suffix]
         folder = target.with_name(_figure_folder(target))
-        folder.mkdir(exist_ok=True)
+        try:
+            folder.mkdir(exist_ok=True)
+        except OSError as error:
+            raise FileAccessError(f"cannot make the folder {folder}: {error.strerror}.") from error
         for figure in figures_of(result.claim.id for result in results):
             written.append(folder / f"{figure.name}.{kind}")
             with atomic_path(written[-1]) as path:

@@ -7,7 +7,7 @@ import typer
 from typer.testing import CliRunner
 
 from pdtheory.cli.verify import verify
-from pdtheory.errors import InputError
+from pdtheory.errors import FileAccessError, InputError
 from pdtheory.paper import claims
 
 QUICK = ["parity-odd", "lemma-gradient"]
@@ -71,6 +71,19 @@ def test_bad_input_is_one_sentence(run, arguments, sentence):
     result = run(*arguments)
     assert isinstance(result.exception, InputError | OSError)
     assert sentence in str(result.exception)
+
+
+@pytest.mark.parametrize("suffix", ["md", "tex"])
+def test_a_file_in_place_of_the_folder_of_figures_is_refused_at_once(
+    run, tmp_path, monkeypatch, suffix
+):
+    pytest.importorskip("matplotlib")
+    monkeypatch.setattr("pdtheory.paper.claims.run_claims", lambda *_: pytest.fail("too late"))
+    (tmp_path / "paper_figures").write_text("mine")
+    result = run(*QUICK, "--report", str(tmp_path / f"paper.{suffix}"))
+    assert isinstance(result.exception, FileAccessError)
+    assert "paper_figures is a file" in str(result.exception)
+    assert [path.name for path in tmp_path.iterdir()] == ["paper_figures"]
 
 
 def test_report_is_written(run, tmp_path):
