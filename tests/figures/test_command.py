@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
 import pytest
 import typer
 from typer.testing import CliRunner
 
+import synthetic_surfaces
 from pdtheory.cli.figure import figure
-from pdtheory.errors import FileAccessError, InputError
+from pdtheory.cli.sample import surfaces
+from pdtheory.errors import FileAccessError, InputError, MissingDependencyError
 from pdtheory.paper.figures import catalogue
 from pdtheory.paper.figures.outcome import equal
+from pdtheory.paper.figures.stage import Panel, render
 
 APP = typer.Typer()
 APP.command()(figure)
@@ -61,3 +65,38 @@ def test_refusals(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     with pytest.raises(FileAccessError, match="cannot make the folder"):
         run("deltoid", "--data-only", "-q", "-o", str(tmp_path / "file" / "x"))
+
+
+def test_without_blender_figures_and_thumbnails_say_what_is_missing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "bpy", None)
+    panel = Panel(synthetic_surfaces.get("cube").mesh(2), [])
+    with pytest.raises(MissingDependencyError, match="Blender's Python module"):
+        render(panel, tmp_path / "panel.png", (8, 8), 1)
+    with pytest.raises(MissingDependencyError, match="Blender's Python module"):
+        surfaces("cube", tmp_path)
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.blender
+def test_a_panel_replaces_the_file_only_when_it_is_done(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("bpy", exc_type=ImportError)
+    from pdtheory.blender import scene
+
+    def stop(*_: object, **__: object) -> None:
+        raise KeyboardInterrupt
+
+    target = tmp_path / "panel.png"
+    target.write_text("old")
+    panel = Panel(synthetic_surfaces.get("cube").mesh(2), [])
+    with monkeypatch.context() as patched:
+        patched.setattr(scene, "_write", stop)
+        with pytest.raises(KeyboardInterrupt):
+            render(panel, target, (8, 8), 1)
+    assert target.read_text() == "old"
+    render(panel, target, (8, 8), 1)
+    assert target.read_bytes().startswith(b"\x89PNG")
+    assert list(tmp_path.iterdir()) == [target]

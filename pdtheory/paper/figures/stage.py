@@ -10,6 +10,7 @@ from typing import Any, Final
 import numpy as np
 import numpy.typing as npt
 
+from pdtheory.atomic import atomic_path
 from pdtheory.conventions import Kind
 from pdtheory.paper.figures.outcome import Job
 from pdtheory.paper.figures.tubes import Drapery, tubes
@@ -132,7 +133,19 @@ def render(panel: Panel, path: Path, size: tuple[int, int], samples: int) -> Non
         Width and height in pixels.
     samples
         Rays for each pixel.
+
+    Raises
+    ------
+    MissingDependencyError
+        If Blender's Python module is not installed.
+    ComputationError
+        If Blender did not make a picture.
+    FileAccessError
+        If the file cannot be written.
     """
+    from pdtheory.blender.requirement import require_bpy
+
+    require_bpy()
 
     from pdtheory.blender.needles import order_material
     from pdtheory.blender.prints import no_prints
@@ -158,8 +171,8 @@ def render(panel: Panel, path: Path, size: tuple[int, int], samples: int) -> Non
     corners = panel.surface.points if panel.focus is None else panel.focus
     view = View(up=panel.up, azimuth=panel.azimuth, elevation=panel.elevation)
     set_stage(scene, corners, view, ground=panel.ground)
-    with no_prints():
-        render_picture(scene, path, samples=samples)
+    with atomic_path(path) as temporary, no_prints():
+        render_picture(scene, temporary, samples=samples)
 
 
 def _split(
