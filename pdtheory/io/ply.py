@@ -27,11 +27,7 @@ _TYPE_NAMES = {
 
 
 def write_ply(
-    path: Path,
-    elements: Mapping[str, Columns],
-    *,
-    faces: IntArray | None = None,
-    comment: str = "",
+    path: Path, elements: Mapping[str, Columns], *, faces: IntArray | None = None
 ) -> None:
     """Write a little-endian binary PLY file.
 
@@ -43,12 +39,8 @@ def write_ply(
         For each element, by name, its columns; all columns of an element have one length.
     faces : (F, 3) int64, optional
         Triangles, written as the element ``face`` after the first of `elements`.
-    comment
-        A line for the header.
     """
     header = ["ply", "format binary_little_endian 1.0"]
-    if comment:
-        header.append(f"comment {comment}")
     blocks = []
     for place, (name, columns) in enumerate(elements.items()):
         fields = [(key, values.dtype.newbyteorder("<")) for key, values in columns.items()]

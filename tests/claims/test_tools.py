@@ -107,13 +107,13 @@ def test_lines_with_multiplicity_and_at_infinity():
 
 def test_row_of_lines_has_those_critical_lines():
     points = [circle_point(Fraction(h)) for h in (0, 2, -3)]
-    row = row_of_lines(5, points)
+    row = row_of_lines(points)
     p = form_of_row(5, row)
     assert count_maxima(5, p) == 3
     assert all(is_maximum(5, p, point) for point in points)
     assert not any(is_maximum(5, p, (-c, -s)) for c, s in points)
     with pytest.raises(ValueError, match="mean"):
-        row_of_lines(4, points[:2])
+        row_of_lines(points[:2])
 
 
 def test_lines_are_maxima_sees_each_condition():

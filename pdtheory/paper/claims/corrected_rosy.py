@@ -313,7 +313,7 @@ def _all_maxima(
 ) -> bool:
     if len(points) * stretch > order:
         return False
-    p = form_of_row(order, row_of_lines(order, points, sign))
+    p = form_of_row(order, row_of_lines(points, sign))
     return count_maxima(order, p) == len(points) and all(
         is_maximum(order, p, point) for point in points
     )
@@ -333,7 +333,7 @@ def _even_maxima(order: int, lines: int, generator: random.Random, stretch: int)
         across = _mean([*maxima, *minima, (Fraction(0), Fraction(1))])
         factors = [*maxima, *minima, (across, -along)]
         for sign in (1, -1):
-            p = form_of_row(order, row_of_lines(order, factors, sign))
+            p = form_of_row(order, row_of_lines(factors, sign))
             if count_maxima(order, p) == 2 * lines and all(
                 is_maximum(order, p, point) for point in maxima
             ):

@@ -149,7 +149,7 @@ def order3_triples(
     outcome = {}
     simple = True
     for sign in (1, -1):
-        p = form_of_row(3, row_of_lines(3, points, sign))
+        p = form_of_row(3, row_of_lines(points, sign))
         outcome[sign] = [is_maximum(3, p, point) for point in points]
         simple = simple and real_lines(3, critical(3, p)) == {1: 3}
     yield fact(

@@ -147,15 +147,14 @@ def is_maximum(order: int, p: Any, point: tuple[Fraction, Fraction]) -> bool:
     return value == 0 and slope < 0
 
 
-def row_of_lines(order: int, points: Sequence[tuple[Fraction, Fraction]], sign: int = 1) -> Row:
+def row_of_lines(points: Sequence[tuple[Fraction, Fraction]], sign: int = 1) -> Row:
     """Return the row with g' = C prod_j sin(t - t_j), C of the given sign, |C| a power of 2.
 
     Parameters
     ----------
-    order
-        k, at least the number m of points, and k = m mod 2.
     points
-        Rational points (cos t_j, sin t_j).
+        Rational points (cos t_j, sin t_j); the row is one of every order that is at least their
+        number and of its parity.
     sign
         Sign of C.
     """

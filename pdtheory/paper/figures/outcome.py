@@ -7,8 +7,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal, TypeVar
 
-from pdtheory.errors import Cancelled
-
 Quality = Literal["small", "draft", "paper"]
 QUALITIES: tuple[Quality, ...] = ("small", "draft", "paper")
 
@@ -121,7 +119,7 @@ class Job:
         return {"small": small, "draft": draft, "paper": paper}[self.quality]
 
     def tell(self, fraction: float, text: str) -> None:
-        """Report progress; the listener may raise :class:`Cancelled`."""
+        """Report progress; the listener may raise :class:`pdtheory.errors.Cancelled`."""
         if self.report is not None:
             self.report(fraction, text)
 
@@ -152,17 +150,3 @@ class Figure:
     compute: Callable[[Job], Outcome]
     draw: Callable[[Job, Outcome, Path], list[Path]]
     models: tuple[tuple[str, ...], ...] = ()
-
-
-__all__ = [
-    "QUALITIES",
-    "Cancelled",
-    "Check",
-    "Figure",
-    "Job",
-    "Outcome",
-    "Quality",
-    "Report",
-    "at_most",
-    "equal",
-]

@@ -87,8 +87,8 @@ def make(
     for figure in figures:
         start = time.perf_counter()
         try:
-            for names in figure.models:
-                find(*names, folder=job.models)
+            for scans in figure.models:
+                find(*scans, folder=job.models)
         except FileAccessError as error:
             yield Made(figure, skipped=str(error))
             continue
