@@ -91,6 +91,7 @@ def glyph_data(field: DirectionField, orders: Iterable[int] | None = None) -> Gl
     for row in rows:
         point = row.point_index
         typical = np.quantile(row.strength, 0.9) if len(row) else 1.0
+        above = np.where(row.strength > 0.0, np.inf, 0.0)
         put("position", field.points[point])
         put("direction", row.vector)
         put("surface_normal", field.frames[point, 2])
@@ -101,7 +102,7 @@ def glyph_data(field: DirectionField, orders: Iterable[int] | None = None) -> Gl
         put("eigenvalue_std", row.eigenvalue_std)
         put("strength", row.strength)
         put("angle_std", row.angle_std)
-        put("relative_strength", np.minimum(row.strength / typical if typical else 0.0, 1.5))
+        put("relative_strength", np.minimum(row.strength / typical if typical else above, 1.5))
         put("bend", _bend(field, point, row.angle))
         put("spacing", spots.spacing[point])
         put("turn", spots.turn[point])

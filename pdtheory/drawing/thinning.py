@@ -45,7 +45,10 @@ class Spots:
     turn: FloatArray
 
     def spacing_for(self, count: int) -> float:
-        """Return the spacing at which about `count` points are kept (0 where all are)."""
+        """Return the spacing at which about `count` points are kept: all where there are fewer.
+
+        It is 0 if no point has a spacing.
+        """
         finite = np.sort(self.spacing[self.spacing > 0.0])[::-1]
         if count >= len(finite):
             return float(finite[-1]) if len(finite) else 0.0
