@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from pdtheory.errors import FileFormatError, InputError
+from pdtheory.io.textmesh import bare_obj, plain_obj, require_whole_off, require_whole_ply
 from pdtheory.pointset.cloud import FloatArray, IntArray, PointCloud
 
 if TYPE_CHECKING:
@@ -22,10 +23,7 @@ CONSISTENT_SHARE = 0.99
 #: Most samples: no memory holds them, but NumPy counts them.
 MOST_SAMPLES = 10**12
 
-#: OBJ lines other than positions and faces: they would make trimesh split the vertices.
-_OBJ_OTHER_LINES = re.compile(rb"^[ \t]*(?![ \t]*[vf][ \t]).*$", re.MULTILINE)
-_OBJ_FACE_EXTRAS = re.compile(rb"(?<=\d)/-?\d*(?:/-?\d*)?")
-_OBJ_NORMALS = re.compile(rb"^[ \t]*vn[ \t]+(.*)$", re.MULTILINE)
+_OBJ_NORMALS = re.compile(rb"^vn +(.*)$", re.MULTILINE)
 
 
 def mesh_suffixes() -> set[str]:
@@ -69,7 +67,8 @@ def read_mesh(path: Path) -> PointCloud:
             for transform, name in (scene.graph[node] for node in scene.graph.nodes_geometry)
         ]
         for part, _ in parts:
-            _require_whole(part)
+            if "_ply_raw" in part.metadata:
+                require_whole_ply(path, part.metadata["_ply_raw"])
         cloud = _concatenate([part for part in parts if _has_points(part[0])], path)
     except (FileFormatError, MemoryError):
         raise
@@ -196,14 +195,15 @@ def _doubled_areas(points: FloatArray, faces: IntArray) -> FloatArray:
 def _load_scene(path: Path) -> trimesh.Scene:
     import trimesh
 
+    if path.suffix.lower() == ".off":
+        require_whole_off(path.read_text(encoding="utf-8", errors="replace"))
     if path.suffix.lower() != ".obj":
         return trimesh.load_scene(path, process=False)
-    text = path.read_bytes()
-    bare = _OBJ_FACE_EXTRAS.sub(b"", _OBJ_OTHER_LINES.sub(b"", text.replace(b"\\\n", b" ")))
+    plain = plain_obj(path.read_bytes())
     scene = trimesh.load_scene(
-        io.BytesIO(bare), file_type="obj", process=False, maintain_order=True
+        io.BytesIO(bare_obj(plain)), file_type="obj", process=False, maintain_order=True
     )
-    rows = [match.split() for match in _OBJ_NORMALS.findall(text)]
+    rows = [match.split() for match in _OBJ_NORMALS.findall(plain)]
     for part in scene.geometry.values():
         if isinstance(part, trimesh.PointCloud) and len(rows) == len(part.vertices):
             part.metadata["normals"] = np.array(rows, dtype=np.float64)
@@ -213,13 +213,6 @@ def _load_scene(path: Path) -> trimesh.Scene:
 def _has_points(part: Any) -> bool:
     vertices = getattr(part, "vertices", None)
     return vertices is not None and len(vertices) > 0 and np.shape(vertices)[1] == 3
-
-
-def _require_whole(part: Any) -> None:
-    """Refuse a text PLY file that ends early, which trimesh lets pass."""
-    raw = part.metadata.get("_ply_raw", {}).get("vertex", {})
-    if raw.get("length", len(part.vertices)) != len(part.vertices):
-        raise ValueError("fewer vertices than the header promises")
 
 
 def _concatenate(parts: list[tuple[Any, npt.NDArray[Any]]], path: Path) -> PointCloud:

@@ -78,6 +78,53 @@ def test_obj_points_with_normals(tmp_path: Path) -> None:
     np.testing.assert_array_equal(cloud.normals, [[0, 0, 1], [0, 1, 0]])
 
 
+SQUARE = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 \\\n 3 4\n",
+        "  v 0 0 0\n\tv 1 0 0\n v 1 1 0\n v 0 1 0\n  f 1 2 3 4\n",
+        "v\t0\t0\t0\nv\t1 0 0\nv 1 1 0\nv 0 1 0\nf\t1\t2\t3\t4\n",
+        "v 0 0 0 # a\nv 1 0 0# b\nv 1 1 0\nv 0 1 0\nf 1/1 2/2 3/3 4/4 # c\n",
+        "# C:\\scans\\\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4",
+    ],
+    ids=["continued", "indented", "tabs", "comments", "backslash"],
+)
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
+def test_obj_layouts(tmp_path: Path, content: str, end: str) -> None:
+    cloud = read_cloud(text_file(tmp_path, "a.obj", content.replace("\n", end)))
+    np.testing.assert_array_equal(cloud.points, SQUARE)
+    assert cloud.faces is not None
+    np.testing.assert_array_equal(np.sort(cloud.faces, axis=1), [[0, 1, 2], [0, 2, 3]])
+    np.testing.assert_array_equal(cloud.normals, [[0, 0, 1]] * 4)
+
+
+@pytest.mark.parametrize("suffix", ["off", "ply"])
+@pytest.mark.parametrize(
+    "polygons", [["3 0 1 2", "3 0 2 3"], ["4 0 1 2 3"], ["3 0 1 2", "4 0 1 2 3"]]
+)
+def test_every_line_cut_off_a_text_mesh_is_missed(
+    tmp_path: Path, suffix: str, polygons: list[str]
+) -> None:
+    header = f"OFF\n4 {len(polygons)} 0\n"
+    if suffix == "ply":
+        header = PLY_HEADER.format(n=4) + (
+            f"element face {len(polygons)}\nproperty list uchar int vertex_indices\nend_header\n"
+        )
+    rows = [" ".join(map(str, point)) for point in SQUARE] + polygons
+    assert (
+        read_cloud(text_file(tmp_path, f"a.{suffix}", header + "\n".join(rows))).faces is not None
+    )
+    for kept in range(1, len(rows)):
+        with pytest.raises(FileFormatError):
+            read_cloud(text_file(tmp_path, f"b.{suffix}", header + "\n".join(rows[:kept]) + "\n"))
+    rows[-1] = rows[-1].rpartition(" ")[0]
+    with pytest.raises(FileFormatError):
+        read_cloud(text_file(tmp_path, f"c.{suffix}", header + "\n".join(rows) + "\n"))
+
+
 def test_polygons_become_triangles(tmp_path: Path) -> None:
     path = text_file(
         tmp_path, "five.off", "OFF\n5 1 0\n0 0 0\n1 0 0\n1 1 0\n0.5 1.5 0\n0 1 0\n5 0 1 2 3 4\n"
@@ -247,6 +294,8 @@ BAD_FILES = [
     ("garbage.gltf", "garbage"),
     ("garbage.xyz", "garbage"),
     ("face.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"),
+    ("zero.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 0\n"),
+    ("zeros.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0/1 1/2 2/3\n"),
     ("face.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n"),
     ("broken.xyz", "1 2 3\n4 five 6\n"),
     ("ragged.csv", "1,2,3\n4,5\n"),
