@@ -56,7 +56,7 @@ def draw(
     from pdtheory.blender.draw import SUFFIXES, draw_field
     from pdtheory.io import read_cloud
 
-    check_target(output, SUFFIXES)
+    check_target(output, SUFFIXES, field, mesh)
     wanted = None if orders is None else parse_orders(orders)
     pixels = parse_size(size)
     directions = load_drawable(field)

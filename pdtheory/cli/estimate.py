@@ -99,7 +99,7 @@ def estimate(
     wanted = parse_orders(orders)
     folder = _folder(output, resume)
     for target in output if folder is None else ():
-        check_target(target, FIELD_SUFFIXES)
+        check_target(target, FIELD_SUFFIXES, source)
     chosen = [
         name
         for name, value in (
@@ -137,6 +137,15 @@ def estimate(
 
 def _folder(output: list[Path], resume: bool) -> Path | None:
     """Return the folder if the results go to one."""
+    from pdtheory.io.write import FIELD_SUFFIXES
+
+    for target in output:
+        # An empty name means the current folder, and Python sees no suffix in a mere ".npz".
+        if target.name.lower() in ("", *FIELD_SUFFIXES):
+            raise InputError(
+                f"the output {str(target)!r} has no name; give a file such as field.npz, or a "
+                "folder by its name."
+            )
     folders = [target for target in output if not target.suffix or target.is_dir()]
     if not folders:
         if resume:
@@ -147,7 +156,15 @@ def _folder(output: list[Path], resume: bool) -> Path | None:
         return None
     if len(output) > 1:
         raise InputError(f"the folder {folders[0]} must be the only output; leave the others out.")
-    return folders[0]
+    folder = folders[0]
+    if folder.is_dir() and not (folder / "plan.json").exists():
+        # Hidden files are those of the system, or what a run that was killed was writing.
+        strangers = sorted(p.name for p in folder.iterdir() if not p.name.startswith("."))
+        if strangers:
+            raise InputError(
+                f"{folder} holds other files, such as {strangers[0]}; give a new or empty folder."
+            )
+    return folder
 
 
 def _number_or_auto(text: str, name: str, kind: Callable[[str], N]) -> N | Literal["auto"]:

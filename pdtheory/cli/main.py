@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import sys
 from typing import Annotated, Any
 
@@ -40,6 +41,14 @@ class _Refusing(TyperGroup):
                 "file.",
                 err=True,
             )
+            raise typer.Exit(2) from error
+        except OSError as error:
+            # A stream, unlike a file, has no name. Typer itself ends quietly on a closed pipe.
+            if error.filename is not None or error.errno == errno.EPIPE:
+                raise
+            # What could not be written must not be tried once more when Python ends.
+            sys.stdout = None
+            typer.echo(f"pdtheory: cannot write the answer: {error.strerror}.", err=True)
             raise typer.Exit(2) from error
         except KeyboardInterrupt:
             typer.echo("pdtheory: interrupted; nothing was left half-written.", err=True)

@@ -96,13 +96,22 @@ def parse_size(text: str) -> tuple[int, int]:
     return int(width), int(height)
 
 
-def check_target(path: Path, suffixes: tuple[str, ...]) -> None:
+def check_target(path: Path, suffixes: tuple[str, ...], *inputs: Path | None) -> None:
     """Refuse an output before the work that would be lost with it.
+
+    Parameters
+    ----------
+    path
+        What is to be written.
+    suffixes
+        What it may end in.
+    *inputs
+        Files that are read and must not be written over, under whatever name or link.
 
     Raises
     ------
     InputError
-        If the suffix is none of `suffixes`.
+        If the suffix is none of `suffixes`, or the path is one of `inputs`.
     FileAccessError
         If the folder does not exist or cannot be written to, or the path is a folder.
     """
@@ -113,6 +122,12 @@ def check_target(path: Path, suffixes: tuple[str, ...]) -> None:
         )
     if path.is_dir():
         raise FileAccessError(f"cannot write {path}: it is a folder; give a file name.")
+    for source in inputs:
+        if source is not None and path.exists() and source.exists() and path.samefile(source):
+            raise InputError(
+                f"cannot write {path}: it is the input {source}, which would be lost; give another "
+                "file."
+            )
     folder = path.parent
     if not folder.is_dir():
         raise FileAccessError(
@@ -132,10 +147,10 @@ def load_drawable(path: Path) -> DirectionField:
     FileAccessError, FileFormatError
         If it cannot be read.
     """
-    from pdtheory.pointset.field import DirectionField
-
     if not path.is_dir():
-        return DirectionField.load(path)
+        from pdtheory.io.write import read_field
+
+        return read_field(path)
     from pdtheory.pointset.parts import load_points, read_plan
 
     total = int(read_plan(path)["queries"])

@@ -35,11 +35,11 @@ def point(
 
     Example: pdtheory point field.npz 1234 --plot point.png
     """
+    from pdtheory.io.write import read_field
     from pdtheory.plots.polar import SUFFIXES
-    from pdtheory.pointset.field import DirectionField
 
     if plot is not None:
-        check_target(plot, SUFFIXES)
+        check_target(plot, SUFFIXES, field)
     wanted = None if orders is None else parse_orders(orders)
     if index < 0:
         raise InputError(f"there is no point {index}; points are counted from 0.")
@@ -48,7 +48,7 @@ def point(
 
         some, row = load_points(field, [index]), 0
     else:
-        some, row = DirectionField.load(field), index
+        some, row = read_field(field), index
     found = replace((some.only(wanted) if wanted else some).at(row), index=index)
     if plot is not None:
         found.plot(plot)

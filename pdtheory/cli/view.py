@@ -59,7 +59,7 @@ def view(
     from pdtheory.viewer import view_field
 
     if screenshot is not None:
-        check_target(screenshot, (".png",))
+        check_target(screenshot, (".png",), field, mesh)
     wanted = None if orders is None else parse_orders(orders)
     pixels = parse_size(size)
     directions = load_drawable(field)

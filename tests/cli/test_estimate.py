@@ -306,3 +306,56 @@ def test_degree_and_radius_are_chosen_where_asked(
     assert "--degree 'best'" in refused(*run, "--degree", "best")
     assert "--radius 'wide'" in refused(*run, "--radius", "wide")
     assert "write several as" in refused(*run, "--radius", "0.1,x")
+
+
+def test_input_is_not_written_over(
+    refused: Refused, bumpy_cloud: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    scan = tmp_path / "scan.csv"
+    scan.write_text("x,y,z\n" + bumpy_cloud.read_text().replace(" ", ","))
+    link, hard = tmp_path / "link.npz", tmp_path / "hard.ply"
+    link.symlink_to(scan)
+    hard.hardlink_to(scan)
+    monkeypatch.chdir(tmp_path)
+    before = scan.read_bytes()
+    for output in (scan, "scan.csv", tmp_path / ".." / tmp_path.name / "scan.csv", link, hard):
+        message = refused("estimate", scan, "-o", tmp_path / "field.npz", "-o", output)
+        assert "is the input" in message
+    assert scan.read_bytes() == before
+    assert not (tmp_path / "field.npz").exists()
+
+
+def test_outputs_need_names_and_folders_of_their_own(
+    refused: Refused, bumpy_cloud: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    for output in ("", ".", ".npz", ".PLY"):
+        assert "has no name" in refused("estimate", bumpy_cloud, "-o", output)
+    (tmp_path / "papers").mkdir()
+    (tmp_path / "papers" / "letter.txt").touch()
+    assert "such as letter.txt" in refused("estimate", bumpy_cloud, "-o", "papers")
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["bumpy.xyz", "papers"]
+    assert [path.name for path in (tmp_path / "papers").iterdir()] == ["letter.txt"]
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full")
+@pytest.mark.parametrize("command", ["estimate", "point"])
+def test_answers_that_cannot_be_printed(
+    cli: Run, bumpy_cloud: Path, tmp_path: Path, command: str
+) -> None:
+    npz = tmp_path / "field.npz"
+    arguments = {
+        "estimate": (str(bumpy_cloud), "-o", str(npz), "--degree", "2", "--orders", "2"),
+        "point": (str(npz), "3"),
+    }
+    cli("estimate", *arguments["estimate"], "-q")
+    with Path("/dev/full").open("w") as full:
+        done = subprocess.run(
+            [sys.executable, "-m", "pdtheory", command, *arguments[command]],
+            stdout=full, stderr=subprocess.PIPE, text=True, timeout=300,
+        )  # fmt: skip
+    assert done.returncode == 2
+    last = done.stderr.splitlines()[-1]
+    assert last == "pdtheory: cannot write the answer: No space left on device."
+    assert "Traceback" not in done.stderr
+    assert "Exception ignored" not in done.stderr
