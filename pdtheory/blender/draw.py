@@ -20,9 +20,8 @@ from typing import BinaryIO, Final, cast
 import numpy as np
 
 from pdtheory.atomic import atomic_path
-from pdtheory.drawing.choice import Choice, check_choice, check_size
-from pdtheory.drawing.glyphs import CERTAIN
-from pdtheory.drawing.view import View, natural_view
+from pdtheory.drawing.choice import CERTAIN, Choice, check_choice, check_size, refuse_empty
+from pdtheory.drawing.view import View, natural_view, on_fitted_surface
 from pdtheory.errors import ComputationError, InputError
 from pdtheory.pointset.cloud import PointCloud
 from pdtheory.pointset.field import DirectionField
@@ -92,7 +91,8 @@ def draw_field(
     field
         The directions.
     cloud
-        The surface they lie on, if it is known; otherwise the points of the field are drawn.
+        The surface they lie on, if it is known; otherwise the points of the field are drawn, each
+        where its fit puts the surface.
     output
         The file to write: ``.png`` or ``.blend``.
     orders
@@ -167,7 +167,10 @@ def _job(
         raise InputError(
             f"the field holds no directions of order {named} to draw (kind {choice.kind})."
         )
+    rows = [field[order] for order in choice.orders]
+    refuse_empty(sum(choice.passes(r.kind, r.strength, r.angle_std).sum() for r in rows))
     up, azimuth, elevation = place
+    field = on_fitted_surface(field) if cloud is None else field
     view = natural_view(field, cloud, up=up, azimuth=azimuth, elevation=elevation)
     return DrawingJob(field, cloud, output.name, choice, view, check_size(size), rays)
 

@@ -93,7 +93,7 @@ def build_scene(job: DrawingJob) -> Any:
         )
     surface.scale = (scale, scale, scale)
     glyphs = add_glyphs(
-        glyph_data(job.field, job.choice.orders),
+        glyph_data(job.field, job.choice.orders, job.choice),
         name="Principal directions",
         collection=collection,
         parent=surface,

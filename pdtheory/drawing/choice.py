@@ -5,10 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Final, NamedTuple
 
+import numpy as np
+import numpy.typing as npt
+
 from pdtheory.conventions import Kind
-from pdtheory.drawing.glyphs import CERTAIN
 from pdtheory.errors import InputError
+from pdtheory.pointset.cloud import FloatArray
 from pdtheory.pointset.field import DirectionField
+
+#: Standard deviation, in radians, up to which a direction is worth drawing: 20 degrees.
+CERTAIN: Final = 0.35
 
 KINDS: Final[Mapping[str, tuple[Kind, ...]]] = {
     "max": (Kind.MAXIMUM,),
@@ -48,6 +54,15 @@ class Choice(NamedTuple):
         """The kinds one by one."""
         return KINDS[self.kind]
 
+    def passes(
+        self, kind: npt.NDArray[np.generic], strength: FloatArray, angle_std: FloatArray
+    ) -> npt.NDArray[np.bool_]:
+        """Return which of some directions are of the kinds, strong and certain enough, (M,)."""
+        keep = np.isin(kind, [int(kind) for kind in self.kinds])
+        keep &= strength >= self.least_strength
+        # Without error bars nothing is known against a direction.
+        return np.asarray(keep & ~(angle_std > self.largest_uncertainty))
+
 
 def check_choice(
     field: DirectionField,
@@ -79,6 +94,21 @@ def check_choice(
         if not value >= 0.0:
             raise InputError(f"{name} is {value}; give a number of at least 0.")
     return Choice(wanted, kind, int(strokes), least_strength, largest_uncertainty)
+
+
+def refuse_empty(count: int) -> None:
+    """Refuse a picture in which no direction is seen.
+
+    Raises
+    ------
+    InputError
+        If `count` is 0.
+    """
+    if not count:
+        raise InputError(
+            "no direction is left to show; take more orders or kinds, a lower least strength or a "
+            "higher largest uncertainty."
+        )
 
 
 def check_size(size: tuple[int, int]) -> tuple[int, int]:

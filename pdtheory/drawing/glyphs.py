@@ -10,7 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from pdtheory.conventions import ORDER_COLOURS
-from pdtheory.drawing.thinning import Spots, choose_spots
+from pdtheory.drawing.choice import Choice
+from pdtheory.drawing.thinning import SPOTS, Spots, choose_spots
 from pdtheory.errors import InputError
 from pdtheory.pointset.cloud import FloatArray
 from pdtheory.pointset.field import DirectionField
@@ -18,11 +19,11 @@ from pdtheory.pointset.field import DirectionField
 #: The orders that have a colour to be drawn in.
 ORDERS: Final = tuple(sorted(ORDER_COLOURS))
 
-#: Standard deviation, in radians, up to which a direction is worth drawing: 20 degrees.
-CERTAIN: Final = 0.35
-
 #: Stands for what single precision cannot hold.
 _HUGE: Final = 3e38
+
+#: Of the points whose directions are shown at first, so many are evenly spread.
+_SHOWN: Final = 5_000
 
 #: A stroke reaches this part of the way to the next spot.
 REACH: Final = 0.46
@@ -54,7 +55,11 @@ class GlyphData:
         return len(self.position)
 
 
-def glyph_data(field: DirectionField, orders: Iterable[int] | None = None) -> GlyphData:
+def glyph_data(
+    field: DirectionField,
+    orders: Iterable[int] | None = None,
+    choice: Choice | None = None,
+) -> GlyphData:
     """Lay out the directions of a field for drawing.
 
     Parameters
@@ -63,6 +68,9 @@ def glyph_data(field: DirectionField, orders: Iterable[int] | None = None) -> Gl
         The directions.
     orders
         The orders to take; all of the field by default.
+    choice
+        What is seen at first. Strokes are spread over the points with such directions; maxima and
+        minima of all orders that are worth drawing by default.
 
     Raises
     ------
@@ -75,14 +83,16 @@ def glyph_data(field: DirectionField, orders: Iterable[int] | None = None) -> Gl
             raise InputError(
                 f"order {order} cannot be drawn; choose from {ORDERS[0]} to {ORDERS[-1]}."
             )
+    seen = Choice(wanted, "both") if choice is None else choice
     rows = [field[order] for order in wanted]
     usable = np.zeros(len(field), dtype=bool)
-    certain = np.zeros(len(field), dtype=np.int64)
-    for row in rows:
+    passing = np.zeros((len(field), len(wanted)), dtype=bool)
+    for i, row in enumerate(rows):
         usable |= row.counts > 0
-        sure = row.point_index[row.angle_std <= CERTAIN]
-        certain[np.unique(sure)] += 1
-    spots = choose_spots(field.points, usable, preference=certain)
+        if row.order in seen.orders:
+            keep = seen.passes(row.kind, row.strength, row.angle_std)
+            passing[row.point_index[keep], i] = True
+    spots = _spots(field.points, usable, passing)
     columns: dict[str, list[npt.NDArray[np.generic]]] = {}
 
     def put(name: str, values: npt.NDArray[np.generic]) -> None:
@@ -109,6 +119,53 @@ def glyph_data(field: DirectionField, orders: Iterable[int] | None = None) -> Gl
     position = np.concatenate(columns.pop("position", [np.empty((0, 3))]))
     attributes = {name: single(np.concatenate(parts)) for name, parts in columns.items()}
     return GlyphData(np.asarray(position, dtype=np.float64), attributes, spots)
+
+
+def spread(
+    points: FloatArray, passing: npt.NDArray[np.bool_], *, most: int = SPOTS, finest: float = 0.0
+) -> Spots:
+    """Choose spots among the points of which something is seen.
+
+    Parameters
+    ----------
+    points : (P, 3) float64
+        Positions.
+    passing : (P, m) bool
+        Whether a direction of each of the m orders is seen there. Spots are dealt to these only.
+    most, finest
+        As for :func:`pdtheory.drawing.thinning.choose_spots`.
+    """
+    count = passing.sum(axis=1)
+    spots = choose_spots(points, count > 0, preference=count, most=most, finest=finest)
+    return Spots(spots.spacing, _deal(spots.turn, passing))
+
+
+def _spots(
+    points: FloatArray, usable: npt.NDArray[np.bool_], passing: npt.NDArray[np.bool_]
+) -> Spots:
+    """Choose spots among all points with directions, and anew among those seen at first."""
+    count = passing.sum(axis=1)
+    every = choose_spots(points, usable, preference=count)
+    first = count > 0
+    if not first.any() or np.array_equal(first, usable):
+        return Spots(every.spacing, _deal(every.turn, passing))
+    some = spread(points, passing, most=_SHOWN)
+    return Spots(
+        np.where(first, some.spacing, every.spacing),
+        np.where(first, some.turn, every.turn),
+        every.spacing,
+    )
+
+
+def _deal(turn: FloatArray, passing: npt.NDArray[np.bool_]) -> FloatArray:
+    """Return turns with which ``floor(turn * m)`` names an order that passes, where one does."""
+    held = passing.sum(axis=1)
+    pick, rest = np.divmod(turn * held, 1.0)
+    nth = np.cumsum(passing, axis=1) == pick[:, None] + 1
+    order = np.argmax(nth & passing, axis=1) if passing.shape[1] else np.zeros(len(turn))
+    # Away from the next order, whatever single precision makes of it.
+    dealt = (order + np.clip(rest, 1e-3, 1.0 - 1e-3)) / max(1, passing.shape[1])
+    return np.where((held > 0) & (held < passing.shape[1]), dealt, turn)
 
 
 def single(values: npt.NDArray[np.generic]) -> npt.NDArray[np.generic]:

@@ -19,10 +19,10 @@ from pdtheory.pointset.cloud import FloatArray, IntArray
 _RATIO = 2.0 ** (-1.0 / 6.0)
 
 #: Beyond so many points spots are not told apart in a picture; the rest comes in random order.
-_BLUE_NOISE_POINTS = 20_000
+SPOTS = 20_000
 
 #: So many points, taken at random, are enough to find those spots among.
-_POOL = 5 * _BLUE_NOISE_POINTS
+_POOL = 5 * SPOTS
 
 #: A spot's turn is chosen from so many random offers to differ from so many spots around it.
 _OFFERS, _AROUND = 12, 6
@@ -39,17 +39,22 @@ class Spots:
     turn : (P,) float64
         In [0, 1), far from the turns of the spots around: ``floor(turn * m)`` deals m orders to
         the spots so that neighbours differ.
+    even : (P,) float64, optional
+        Spacings that `spacing_for` counts by: those of a selection of all points, where `spacing`
+        prefers some.
     """
 
     spacing: FloatArray
     turn: FloatArray
+    even: FloatArray | None = None
 
     def spacing_for(self, count: int) -> float:
         """Return the spacing at which about `count` points are kept: all where there are fewer.
 
         It is 0 if no point has a spacing.
         """
-        finite = np.sort(self.spacing[self.spacing > 0.0])[::-1]
+        counted = self.spacing if self.even is None else self.even
+        finite = np.sort(counted[counted > 0.0])[::-1]
         if count >= len(finite):
             return float(finite[-1]) if len(finite) else 0.0
         return float(finite[count - 1])
@@ -60,6 +65,8 @@ def choose_spots(
     usable: npt.NDArray[np.bool_] | None = None,
     *,
     preference: npt.NDArray[np.generic] | None = None,
+    most: int = SPOTS,
+    finest: float = 0.0,
     seed: int = 0,
 ) -> Spots:
     """Rank points by spacing and deal them turns.
@@ -73,6 +80,11 @@ def choose_spots(
     preference : (P,) array, optional
         Of points close together, compared to the distance of spots, the one with the largest value
         is taken.
+    most
+        So many points are apart from each other as their spacing says; the rest comes in random
+        order.
+    finest
+        Spacings below this need not be told apart.
     seed
         Seed of the random choices; the same seed gives the same spots.
 
@@ -95,18 +107,19 @@ def choose_spots(
     pool = index[:_POOL]
     if preference is not None:
         pool = pool[np.argsort(-preference[pool].astype(np.float64), kind="stable")]
-    chosen, reach, turns = _progressive_sample(points[pool], random)
+    chosen, reach, turns = _progressive_sample(points[pool], random, most, finest)
     spacing[pool[chosen]] = reach
     turn[pool[chosen]] = turns
     left = index[spacing[index] == 0.0]
     # On a surface the number of spots grows as 1/spacing^2.
-    spacing[left] = reach[-1] * np.sqrt(len(chosen) / (len(chosen) + 1 + np.arange(len(left))))
+    base = min(reach[-1], finest) if finest > 0.0 else reach[-1]
+    spacing[left] = base * np.sqrt(len(chosen) / (len(chosen) + 1 + np.arange(len(left))))
     turn[left] = random.random(len(left))
     return Spots(spacing, turn)
 
 
 def _progressive_sample(
-    points: FloatArray, random: np.random.Generator
+    points: FloatArray, random: np.random.Generator, most: int, finest: float
 ) -> tuple[IntArray, FloatArray, FloatArray]:
     """Return indices of a progressive Poisson-disk sample, the radius of each, and its turn."""
     low, high = points.min(axis=0), points.max(axis=0)
@@ -116,7 +129,8 @@ def _progressive_sample(
     turn = random.random(1)
     waiting = np.arange(1, len(points))
     radius = diagonal / 2.0
-    while len(chosen) < min(_BLUE_NOISE_POINTS, len(points)) and radius > 1e-9 * diagonal:
+    last = max(1e-9 * diagonal, finest * _RATIO)
+    while len(chosen) < min(most, len(points)) and radius > last:
         # A point within the radius of a chosen one may be wanted at a finer level: it waits.
         candidates = waiting[_one_per_cell(points[waiting], low, radius / 2.0)]
         near, _ = cKDTree(points[chosen]).query(points[candidates], distance_upper_bound=radius)

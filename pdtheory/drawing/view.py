@@ -67,6 +67,16 @@ def surface_points(field: DirectionField, cloud: PointCloud | None) -> FloatArra
     return points[np.isfinite(points).all(axis=1)]
 
 
+def on_fitted_surface(field: DirectionField) -> DirectionField:
+    """Return a field whose points lie where their fits put the surface, without their noise.
+
+    Discs at noisy points cover each other, and the strokes of half of them.
+    """
+    height = np.where(field.answered, field.coefficient(0, 0).real, 0.0)
+    normal = np.where(field.answered[:, None], field.frames[:, 2], 0.0)
+    return replace(field, points=field.points + height[:, None] * normal)
+
+
 def natural_view(
     field: DirectionField,
     cloud: PointCloud | None,

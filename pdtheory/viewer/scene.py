@@ -36,7 +36,8 @@ class FieldView:
     field
         The directions.
     cloud
-        The surface, if it has triangles; else the points of the field are drawn as discs.
+        The surface, if it is known: its triangles, or its points as discs; else the points of the
+        field.
     choice
         What is shown at first.
     view
@@ -70,6 +71,7 @@ class FieldView:
         import pyvista
 
         seen = self._strokes.seen(self.choice)
+        self._count = int(seen.sum())
         order = self._strokes.data.attributes["order"]
         kind = np.asarray(self._strokes.data.attributes["kind"])
         both = self.choice.kind == "both"
@@ -96,7 +98,7 @@ class FieldView:
 
     def count(self) -> int:
         """Return how many strokes are seen."""
-        return int(self._strokes.seen(self.choice).sum())
+        return self._count
 
     def switch(self, order: int, on: bool) -> None:
         """Switch an order on or off."""
@@ -163,7 +165,7 @@ class FieldView:
                 reset_camera=False,
             )
             return
-        points, faces = discs(field)
+        points, faces = discs(field, cloud)
         self.plotter.add_mesh(
             pyvista.PolyData.from_regular_faces(points, faces),
             color=_DISCS,

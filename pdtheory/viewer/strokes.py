@@ -10,9 +10,9 @@ import numpy.typing as npt
 from scipy.spatial import cKDTree
 
 from pdtheory.drawing.choice import Choice
-from pdtheory.drawing.glyphs import REACH, GlyphData, glyph_data
+from pdtheory.drawing.glyphs import REACH, GlyphData, glyph_data, spread
 from pdtheory.errors import InputError
-from pdtheory.pointset.cloud import FloatArray, IntArray
+from pdtheory.pointset.cloud import FloatArray, IntArray, PointCloud
 from pdtheory.pointset.field import DirectionField
 
 #: Points on a stroke, which follows the curvature of the surface.
@@ -36,9 +36,12 @@ class Strokes:
     ----------
     data : GlyphData
         All directions, flat.
+    points : (P, 3) float64
+        The points of the field.
     """
 
     data: GlyphData
+    points: FloatArray
 
     @classmethod
     def of_field(cls, field: DirectionField) -> Strokes:
@@ -55,7 +58,7 @@ class Strokes:
                 "the field holds no directions to show; its points were not answered, or every "
                 "direction is an E-eigenvector."
             )
-        return cls(data)
+        return cls(data, field.points)
 
     def strengths(self) -> tuple[float, float]:
         """Return the 2 % and 98 % quantiles of the strengths that are not 0."""
@@ -72,17 +75,21 @@ class Strokes:
         Where several orders are switched on the points are dealt to them in turn, so that strokes
         do not lie on top of each other.
         """
-        keep = np.isin(self._column("kind"), [int(kind) for kind in choice.kinds])
+        keep = choice.passes(
+            self._column("kind"), self._column("strength"), self._column("angle_std")
+        )
+        keep &= np.isin(self._column("order"), choice.orders)
         # The attributes are in single precision, the spots are not.
-        spots, point = self.data.spots, self.data.attributes["point"].astype(np.int64)
-        keep &= spots.spacing[point] >= spots.spacing_for(choice.strokes)
-        keep &= self._column("strength") >= choice.least_strength
-        # Without error bars nothing is known against a direction.
-        keep &= ~(self._column("angle_std") > choice.largest_uncertainty)
-        if not choice.orders:
-            return np.zeros(len(self.data), dtype=bool)
+        point = self.data.attributes["point"].astype(np.int64)
+        index = np.searchsorted(choice.orders, self._column("order"))
+        passing = np.zeros((len(self.points), len(choice.orders)), dtype=bool)
+        passing[point[keep], index[keep]] = True
+        apart = self.data.spots.spacing_for(choice.strokes)
+        spots = spread(self.points, passing, finest=apart)
+        if choice.strokes < np.count_nonzero(self.data.spots.spacing):
+            keep &= spots.spacing[point] >= apart
         turn = np.floor(spots.turn[point] * len(choice.orders)).astype(np.int64)
-        return keep & (self._column("order") == np.array(choice.orders)[turn])
+        return keep & (turn == index)
 
     def lines(self, rows: npt.NDArray[np.bool_], choice: Choice) -> FloatArray:
         """Return the chosen directions as polylines, shape (m, 5, 3).
@@ -119,29 +126,36 @@ def cells(lines: FloatArray) -> IntArray:
     return np.column_stack([np.full(count, steps, dtype=np.int64), numbers]).ravel()
 
 
-def discs(field: DirectionField) -> tuple[FloatArray, IntArray]:
-    """Return an octagon in the tangent plane of every answered point, so that they hide the back.
+def discs(field: DirectionField, cloud: PointCloud | None) -> tuple[FloatArray, IntArray]:
+    """Return an octagon in the tangent plane of every point, so that they hide the back.
 
     Parameters
     ----------
     field
         The field.
+    cloud
+        The points, each of which takes the plane of the nearest answered point of the field; the
+        answered points themselves if it is not known.
 
     Returns
     -------
     points : (8 A, 3) float64
-        Corners of the octagons of the A answered points.
+        Corners of the octagons of the A points.
     faces : (A, 8) int64
         Octagons as indices of corners.
     """
-    part = np.flatnonzero(field.answered)
-    centres = field.points[part]
-    near, _ = cKDTree(centres).query(centres, k=min(_COVERED, len(part)))
-    size = np.asarray(near).reshape(len(part), -1)[:, -1]
+    places, frames = field.points[field.answered], field.frames[field.answered]
+    centres = places
+    if cloud is not None:
+        centres = cloud.points
+        frames = frames[cKDTree(places).query(centres)[1]]
+    count = len(centres)
+    near, _ = cKDTree(centres).query(centres, k=min(_COVERED, count))
+    size = np.asarray(near).reshape(count, -1)[:, -1]
     size = np.minimum(np.where(size > 0.0, size, 1.0), 2.0 * np.median(size))[:, None, None]
     turn = np.arange(8) * (np.pi / 4.0)
     circle = np.stack([np.cos(turn), np.sin(turn)], axis=1)
     # A little below the points, or noise would bury their strokes.
-    centres = centres - _SUNK * size[:, 0] * field.frames[part, 2]
-    corners = centres[:, None, :] + size * np.einsum("ci,pij->pcj", circle, field.frames[part, :2])
-    return corners.reshape(-1, 3), np.arange(8 * len(part), dtype=np.int64).reshape(-1, 8)
+    centres = centres - _SUNK * size[:, 0] * frames[:, 2]
+    corners = centres[:, None, :] + size * np.einsum("ci,pij->pcj", circle, frames[:, :2])
+    return corners.reshape(-1, 3), np.arange(8 * count, dtype=np.int64).reshape(-1, 8)

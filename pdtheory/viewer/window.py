@@ -10,9 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from pdtheory.atomic import atomic_path
-from pdtheory.drawing.choice import check_choice, check_size
-from pdtheory.drawing.glyphs import CERTAIN
-from pdtheory.drawing.view import natural_view
+from pdtheory.drawing.choice import CERTAIN, check_choice, check_size, refuse_empty
+from pdtheory.drawing.view import natural_view, on_fitted_surface
 from pdtheory.errors import ComputationError, InputError, MissingDependencyError
 from pdtheory.pointset.cloud import PointCloud
 from pdtheory.pointset.field import DirectionField
@@ -44,8 +43,8 @@ def view_field(
     field
         The directions.
     cloud
-        The surface they lie on, if its triangles are known; otherwise the points of the field are
-        drawn as small discs.
+        The surface they lie on, if it is known: its triangles, or its points as small discs.
+        Otherwise the points of the field are drawn, each where its fit puts the surface.
     orders
         Orders that are switched on at first; all by default.
     kind
@@ -90,6 +89,7 @@ def view_field(
             "there is no display to open a window on; write a picture with screenshot instead "
             "(--screenshot on the command line)."
         )
+    field = on_fitted_surface(field) if cloud is None else field
     place = natural_view(field, cloud, up=up, azimuth=azimuth, elevation=elevation)
     pyvista = _pyvista()
     plotter = pyvista.Plotter(off_screen=screenshot is not None, window_size=list(size))
@@ -99,11 +99,7 @@ def view_field(
             scene.add_controls()
             plotter.show(title="Principal directions")
             return
-        if not scene.count():
-            raise InputError(
-                "no direction is left to show; switch on more orders, lower least_strength or "
-                "raise largest_uncertainty."
-            )
+        refuse_empty(scene.count())
         with atomic_path(screenshot) as temporary:
             plotter.screenshot(str(temporary))
     finally:
@@ -165,6 +161,7 @@ def widget(
             "`pip install 'pyvista[jupyter]'` (extra notebook)."
         ) from error
     plotter = pyvista.Plotter(notebook=True, off_screen=True, window_size=list(size))
+    field = on_fitted_surface(field) if cloud is None else field
     scene = FieldView(field, cloud, choice, natural_view(field, cloud), plotter)
     scene.add_controls()
     with _own_server(pyvista):

@@ -124,7 +124,7 @@ def test_size_and_place_do_not_matter(tmp_path, torus_field, factor):
         ({"rays": 0}, "rays is 0"),
         ({"size": (8, 72)}, "8 x 72"),
         ({"up": "w"}, "'w'; give x, y or z"),
-        ({"elevation": -10.0}, "elevation is -10"),
+        ({"elevation": -100.0}, "elevation is -100"),
         ({"least_strength": -1.0}, "least_strength is -1"),
         ({"largest_uncertainty": float("nan")}, "uncertainty is nan"),
     ],

@@ -96,7 +96,7 @@ def test_strokes_lie_on_the_torus(strokes):
 
 
 def test_discs_hide_the_back(field):
-    points, faces = discs(field)
+    points, faces = discs(field, None)
     assert faces.shape == (len(field), 8)
     assert points.shape == (8 * len(field), 3)
     corner = points.reshape(-1, 8, 3)
@@ -109,6 +109,17 @@ def test_discs_hide_the_back(field):
     assert (radius > 0.0).all()
     # Octagons about overlapping neighbours cover more area than there is.
     assert 2 * np.sqrt(2) * (radius**2).sum() > 1.5 * 4 * np.pi**2 * 0.4
+
+
+def test_discs_of_a_cloud_take_the_planes_of_the_field(field):
+    cloud = PointCloud(field.points[::3] * [1.0, 1.0, 1.01])
+    points, faces = discs(field, cloud)
+    assert faces.shape == (len(cloud), 8)
+    middle = points.reshape(-1, 8, 3).mean(axis=1)
+    spread = points.reshape(-1, 8, 3) - middle[:, None]
+    flat = np.einsum("pcj,pj->pc", spread, field.frames[::3, 2])
+    assert np.median(np.abs(flat).max(axis=1)) < 0.05 * np.abs(spread).max()
+    assert np.linalg.norm(middle - cloud.points, axis=1).max() < 0.05
 
 
 @needs_pyvista
