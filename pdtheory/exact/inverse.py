@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cmp_to_key
 from itertools import pairwise
 from math import prod
@@ -13,9 +14,11 @@ import sympy as sp
 
 from pdtheory.errors import InputError
 from pdtheory.exact.coefficients import check_order, exact
+from pdtheory.exact.constantroots import RealConstant
+from pdtheory.exact.realnumber import precisions
 from pdtheory.exact.wavejets import WavejetsRow
 from pdtheory.exact.waves import Wave
-from pdtheory.exact.zeros import sign
+from pdtheory.exact.zeros import is_real, is_zero, sign
 
 
 def _compare(a: Any, b: Any) -> int:
@@ -75,6 +78,8 @@ def realize_maxima(order: int, angles: Sequence[Any]) -> Realization:
     ------
     InputError
         If the order is below 1, there is no angle, or one is no real number.
+    ComputationError
+        If whether two angles are equal could not be proved (`zeros.is_zero`).
 
     Examples
     --------
@@ -97,20 +102,38 @@ def realize_maxima(order: int, angles: Sequence[Any]) -> Realization:
     return Realization(k, chosen, row, reason)
 
 
-def _ascending(angles: Sequence[Any]) -> tuple[Any, ...]:
+def _ascending(angles: Sequence[Any], period: int = 360) -> tuple[Any, ...]:
+    """Return the different angles in [0, period), ascending; a number may be written in many ways.
+
+    Raises
+    ------
+    InputError
+        If there is no angle, or one is no real number.
+    """
     values = [exact(a) for a in angles]
     if not values:
         raise InputError("No angle is given; give at least one, in degrees.")
     for a in values:
-        if not a.is_real:
+        if a.free_symbols or not is_real(a):
             raise InputError(f"The angle {a} is not a real number of degrees.")
-    return tuple(sorted({a - 360 * sp.floor(a / 360) for a in values}, key=_ORDER))
+    folded = sorted((_folded(a, period) for a in values), key=_ORDER)
+    return tuple(b for i, b in enumerate(folded) if i == 0 or not is_zero(b - folded[i - 1]))
+
+
+def _folded(angle: Any, period: int) -> Any:
+    """Return an angle up to whole periods, in [0, period)."""
+    ratio = RealConstant(angle / period)
+    near = next(e for e in map(ratio.at_precision, precisions()) if e.width < Fraction(1, 2))
+    # The rest is below three quarters of a period on either side of zero.
+    rest = angle - round(near.middle) * period
+    side = sign(rest)
+    return (rest if side > 0 else rest + period) if side else sp.Integer(0)
 
 
 def _refuse_odd(order: int, angles: tuple[Any, ...]) -> str | None:
     for i, a in enumerate(angles):
         for b in angles[i + 1 :]:
-            if b - a == 180:
+            if is_zero(b - a - 180):
                 return (
                     f"{a} and {b} degrees are opposite, "
                     "where a maximum of odd order faces a minimum"
@@ -123,12 +146,12 @@ def _refuse_odd(order: int, angles: tuple[Any, ...]) -> str | None:
         return None
     # Interlacing: going round, angles and opposites alternate.
     marked = sorted(
-        [(a, 0) for a in angles] + [((a + 180) % 360, 1) for a in angles],
+        [(a, 0) for a in angles] + [(_folded(a + 180, 360), 1) for a in angles],
         key=lambda pair: _ORDER(pair[0]),
     )
     for (a, first), (b, second) in pairwise([*marked, marked[0]]):
         if first == second:
-            low, high = (a, b) if not first else ((a + 180) % 360, (b + 180) % 360)
+            low, high = (a, b) if not first else (_folded(c + 180, 360) for c in (a, b))
             return (
                 f"no opposite of another angle lies between {low} and {high} degrees, "
                 "but between two maxima there is a minimum, which is the opposite of a maximum"
@@ -137,9 +160,9 @@ def _refuse_odd(order: int, angles: tuple[Any, ...]) -> str | None:
 
 
 def _refuse_even(order: int, angles: tuple[Any, ...]) -> str | None:
-    present = set(angles)
     for a in angles:
-        if (a + 180) % 360 not in present:
+        opposite = _folded(a + 180, 360)
+        if not any(is_zero(b - opposite) for b in angles):
             return f"{a} degrees is given without its opposite, but g of even order has period 180"
     if len(angles) > order:
         return f"order {order} has at most {order} maxima, not {len(angles)}"
@@ -200,7 +223,9 @@ def rows_with_critical_lines(order: int, angles: Sequence[Any]) -> list[Wavejets
     Raises
     ------
     InputError
-        If the order is below 1 or an angle is no real number.
+        If the order is below 1, there is no angle, or one is no real number.
+    ComputationError
+        If whether two angles are equal could not be proved (`zeros.is_zero`).
 
     Notes
     -----
@@ -208,7 +233,7 @@ def rows_with_critical_lines(order: int, angles: Sequence[Any]) -> list[Wavejets
     circle must vanish too, as that of every derivative along the circle.
     """
     k = check_order(order, 1)
-    lines = sorted({a - 180 * sp.floor(a / 180) for a in _ascending(angles)}, key=_ORDER)
+    lines = _ascending(angles, 180)
     sines = Wave.product_of_sines(lines)
     # All forms and the turn of their coefficients belong to (2 i)^m F.
     forms, turn = [sines * factor for factor in _basis(k - len(lines))], 90 * len(lines)

@@ -273,3 +273,26 @@ def test_angles_are_sorted_by_proof():
         realize_maxima(
             1, [4 * sp.atan(sp.Rational(1, 5)), sp.atan(sp.Rational(1, 239)) + sp.pi / 4]
         )
+
+
+def test_equal_angles_in_different_forms():
+    # Both are 10 (sqrt(2) + sqrt(3)), and no simplification is asked for.
+    a = 10 * sp.sqrt(5 + 2 * sp.sqrt(6))
+    b = 10 * (sp.sqrt(2) + sp.sqrt(3))
+    assert a != b
+    assert realize_maxima(4, [a, b + 180]).is_realizable
+    assert realize_maxima(3, [a, b]).angles == (a,)
+    assert realize_maxima(3, [a, b]).row == realize_maxima(3, [a]).row
+    assert "opposite" in realize_maxima(3, [a, 100, b + 180]).reason
+    assert "without its opposite" in realize_maxima(4, [a, b]).reason
+    assert len(rows_with_critical_lines(3, [a, b, b + 180])) == 3
+    # A difference that is a whole turn, though no rounding tells on which side.
+    assert realize_maxima(1, [a - b + 360, b - a]).angles == (0,)
+
+
+@pytest.mark.parametrize("angle", [-10, 370, sp.pi - 1000, 10**40 * sp.sqrt(2), -720])
+def test_angles_are_taken_into_one_turn(angle):
+    (found,) = realize_maxima(1, [angle]).angles
+    with mpmath.workdps(80):
+        expected = mpmath.fmod(mpmath.mpf(sp.N(angle, 80)), 360)
+        assert abs(mpmath.mpf(sp.N(found, 60)) - expected % 360) < mpmath.mpf(10) ** -30
