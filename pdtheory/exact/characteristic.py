@@ -58,14 +58,15 @@ class CharacteristicPolynomial:
 
 
 def is_irregular(face: Face) -> bool:
-    """Return whether a tensor of order k >= 3 is irregular: phi_k = phi_{k-2} = 0.
+    """Return whether a tensor of order k >= 2 is irregular: phi_k = phi_{k-2} = 0.
 
-    By definition a tensor is irregular if T v^(k-1) = 0 for some v != 0 with v.v = 0.
+    By definition a tensor is irregular if T v^(k-1) = 0 for some v != 0 with v.v = 0. From order 3
+    on psi vanishes identically then, and only then. Of order 2 the zero matrix alone is irregular,
+    and its psi is lambda^2.
     """
     row = face.row
-    check_order(row.order, 2)
-    frequencies = (row.order,) if row.order == 2 else (row.order, row.order - 2)
-    return all(is_zero(part) for n in frequencies for part in row.parts[n])
+    k = check_order(row.order, 2)
+    return all(is_zero(part) for n in (k, k - 2) for part in row.parts[n])
 
 
 def characteristic_polynomial(face: Face) -> CharacteristicPolynomial:
@@ -80,7 +81,8 @@ def characteristic_polynomial(face: Face) -> CharacteristicPolynomial:
     -------
     CharacteristicPolynomial
         Its roots are the E-eigenvalues with complex E-eigenvectors if the tensor is regular (Qi
-        2007); for odd k with both signs. It vanishes identically iff the tensor is irregular.
+        2007); for odd k with both signs. It vanishes identically iff k >= 3 and the tensor is
+        irregular.
 
     Raises
     ------

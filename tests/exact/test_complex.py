@@ -41,6 +41,17 @@ def test_irregular():
     assert not is_irregular(HAND)
 
 
+@pytest.mark.parametrize("entries", [(1, 0, 1), (1, 0, -1), (2, 3, -5), (0, 1, 0), (0, 0, 0)])
+def test_of_matrices_zero_alone_is_irregular(entries):
+    """By definition: T v = 0 for v = (1, +-i); and psi of a matrix is never the zero polynomial."""
+    p, q, r = entries
+    matrix = sp.Matrix([[p, q], [q, r]])
+    annihilates = any(matrix * sp.Matrix([1, s * sp.I]) == sp.zeros(2, 1) for s in (1, -1))
+    form = BinaryForm([p, 2 * q, r])
+    assert is_irregular(form) == annihilates == (matrix == sp.zeros(2, 2))
+    assert not characteristic_polynomial(form).is_irregular
+
+
 def test_matrices_have_the_characteristic_polynomial_of_linear_algebra():
     matrix = sp.Matrix([[2, 3], [3, -5]])
     psi = characteristic_polynomial(BinaryForm([2, 6, -5])).polynomial.as_expr()
