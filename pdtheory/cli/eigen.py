@@ -44,7 +44,9 @@ def eigen(
     characteristic: Annotated[
         bool, typer.Option("--characteristic", help="Give the E-characteristic polynomial too.")
     ] = False,
-    digits: Annotated[int, typer.Option("--digits", help="Significant digits in the table.")] = 12,
+    digits: Annotated[
+        int, typer.Option("--digits", help="Significant digits in the table and in LaTeX.")
+    ] = 12,
     as_latex: Annotated[bool, typer.Option("--latex", help="Print LaTeX instead.")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON instead of tables.")] = False,
 ) -> None:
@@ -69,7 +71,7 @@ def eigen(
     if as_json:
         _print_json(forms, heading, complex_pairs, characteristic)
     elif as_latex:
-        _print_latex(forms, complex_pairs, characteristic)
+        _print_latex(forms, complex_pairs, characteristic, digits)
     else:
         if heading:
             _print_frame(heading)
@@ -150,7 +152,9 @@ def _print_json(
     typer.echo(json.dumps(data, indent=2))
 
 
-def _print_latex(forms: list[BinaryForm], complex_pairs: bool, characteristic: bool) -> None:
+def _print_latex(
+    forms: list[BinaryForm], complex_pairs: bool, characteristic: bool, digits: int
+) -> None:
     import sympy as sp
 
     from pdtheory.exact.characteristic import characteristic_polynomial
@@ -161,7 +165,7 @@ def _print_latex(forms: list[BinaryForm], complex_pairs: bool, characteristic: b
     for form in forms:
         typer.echo(rf"\[ {form.latex()} \]")
         typer.echo(rf"\[ {form.row.latex()} \]")
-        typer.echo(latex_pairs(form.eigenpairs()))
+        typer.echo(latex_pairs(form.eigenpairs(), digits))
         if characteristic and form.order > 1:
             psi = characteristic_polynomial(form).polynomial.as_expr()
             typer.echo(rf"\[ \psi(\lambda) \sim {sp.latex(sp.factor(psi))} \]")
@@ -242,6 +246,8 @@ def eigen_table(order: int, pairs: EigenPairs, digits: int = 12, *, rounded: boo
     from rich.table import Table
     from rich.text import Text
 
+    from pdtheory.exact.report import decimal_text
+
     table = Table(title=f"Real E-eigenpairs of order {order}")
     table.add_column("theta (deg)", justify="right", no_wrap=True, min_width=digits)
     table.add_column("lambda", justify="right", no_wrap=True, min_width=digits)
@@ -251,21 +257,13 @@ def eigen_table(order: int, pairs: EigenPairs, digits: int = 12, *, rounded: boo
         table.add_column("exact", overflow="fold")
     for pair in pairs:
         table.add_row(
-            Text(_number(pair.angle_degrees(digits))),
-            Text(_number(pair.eigenvalue_float(digits))),
+            Text(decimal_text(pair.angle_degrees(digits))),
+            Text(decimal_text(pair.eigenvalue_float(digits))),
             pair.kind.label,
             str(pair.multiplicity),
             *(() if rounded else (Text(pair.exact_text),)),
         )
     return table
-
-
-def _number(value: Any) -> str:
-    text = str(value)
-    mantissa, exponent, power = text.partition("e")
-    if "." in mantissa:
-        mantissa = mantissa.rstrip("0").rstrip(".")
-    return mantissa + exponent + power
 
 
 def check_digits(digits: int) -> None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from math import gcd
 from typing import Any, Final
 
@@ -21,6 +22,10 @@ from pdtheory.exact.realnumber import FIRST_BITS, SHORT, RealNumber, precisions
 
 #: Longest text of a minimal polynomial that is shown.
 LONG: Final = 400
+#: Size of the integers in a minimal polynomial, in bits, from which no radicals are short: none has
+#: more than four times the digits that are written in the radicals. SymPy looks for factors in what
+#: it takes a root of, which takes minutes for an integer of a few thousand digits.
+LARGE: Final = 16 * SHORT
 _T = sp.Symbol("t")
 
 
@@ -102,10 +107,16 @@ class RealAlgebraic(RealNumber):
         return real_roots(self.polynomial, bits)[self.index]
 
     @property
+    def _is_large(self) -> bool:
+        return max(abs(c) for c in self.polynomial).bit_length() >= LARGE
+
+    @cached_property
     def radical(self) -> Any | None:
-        """The number in radicals if that is short, else None."""
+        """The number in radicals if it is rational or that is short, else None."""
         if self.is_rational:
             return sp.Rational(-self.polynomial[0], self.polynomial[1])
+        if self._is_large:
+            return None
         if self.degree == 2:
             return self._shortest(_quadratic(self.polynomial))
         if self.degree == 4 and self.polynomial[1] == self.polynomial[3] == 0:
@@ -129,6 +140,11 @@ class RealAlgebraic(RealNumber):
         raise AssertionError("unreachable")
 
     @property
+    def is_short(self) -> bool:
+        """True if the number has a short text in radicals."""
+        return not self._is_large and super().is_short and len(str(self.radical)) <= SHORT
+
+    @property
     def exact(self) -> Any:
         """The number as an exact SymPy expression: radicals if short, else ``CRootOf``."""
         short = self.radical
@@ -138,14 +154,15 @@ class RealAlgebraic(RealNumber):
 
     def text(self, digits: int = 15) -> str:
         """Return the number for people: short radicals, or minimal polynomial and enclosure."""
-        short = self.radical
-        if short is not None and len(str(short)) <= SHORT:
-            return str(short)
+        if self.is_short:
+            return str(self.radical)
         if self.is_rational:
             return f"a number in {self.enclosure(digits).text(digits)}"
-        polynomial = str(sp.Poly(self.polynomial[::-1], _T).as_expr())
-        if len(polynomial) > LONG:
-            polynomial = f"an irreducible polynomial of degree {self.degree}"
+        polynomial = f"an irreducible polynomial of degree {self.degree}"
+        # A digit takes fewer than four bits.
+        if sum(c.bit_length() for c in self.polynomial) <= 4 * LONG:
+            written = str(sp.Poly(self.polynomial[::-1], _T).as_expr())
+            polynomial = written if len(written) <= LONG else polynomial
         return f"the root of {polynomial} in {self.enclosure(digits).text(digits)}"
 
 

@@ -74,7 +74,7 @@ class EigenPair:
     def _short_cosine_squared(self) -> Any | None:
         """cos(theta)^2 in radicals if tan(theta) and it are short, else None."""
         tangent = self.tangent
-        if not isinstance(tangent, RealAlgebraic) or tangent.radical is None:
+        if not isinstance(tangent, RealAlgebraic) or not tangent.is_short:
             return None
         polynomial = cosine_squared_polynomial(tangent.polynomial)
         return RealAlgebraic.select(polynomial, partial(_cosine_squared, tangent)).radical
@@ -183,9 +183,11 @@ class EigenPair:
     def eigenvalue_text(self, digits: int = 15) -> str:
         """Return lambda for people; beyond a degree of `LARGEST_TEXT` by its enclosure alone."""
         if self.vanishing or self._text_degree <= LARGEST_TEXT:
-            text = self.eigenvalue_number.text(digits)
-            factor = self._numbers.factor
-            return text if factor == 1 else f"{factor} times {text}"
+            number, factor = self.eigenvalue_number, self._numbers.factor
+            if factor == 1 or not number.is_short:
+                text = number.text(digits)
+                return text if factor == 1 else f"{factor} times {text}"
+            return str(factor * number.radical)
         return f"a number in {self.eigenvalue_enclosure(digits).text(digits)}"
 
     @property

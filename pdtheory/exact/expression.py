@@ -22,6 +22,9 @@ MAX_LENGTH: Final = 10_000
 MAX_EXPONENT: Final = 256
 #: Largest size of a number that an operation may produce, in bits.
 MAX_BITS: Final = 1 << 16
+#: Largest size of a number under a root, in bits: SymPy looks for its factors, and what it cannot
+#: factor makes a number field that is too large to compute in.
+MAX_ROOT_BITS: Final = 1 << 10
 #: Deepest nesting of operations; SymPy itself recurses several frames a level.
 MAX_DEPTH: Final = 80
 
@@ -43,6 +46,8 @@ FUNCTIONS: Final[dict[str, Callable[[Any], Any]]] = {
     "acosh": sp.acosh,
     "atanh": sp.atanh,
 }
+#: The functions that are roots.
+ROOTS: Final = ("sqrt", "cbrt")
 CONSTANTS: Final[dict[str, Any]] = {"pi": sp.pi, "E": sp.E}
 
 _NUMBER = re.compile(r"(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?")
@@ -138,7 +143,10 @@ class _Reader:
             case ast.Call(func=ast.Name(id=name), args=[argument], keywords=[]):
                 if name not in FUNCTIONS:
                     raise self._refuse(f"the function {name!r}", "use " + ", ".join(FUNCTIONS))
-                return self._finite(FUNCTIONS[name](self.read(argument, depth + 1)), node)
+                value = self.read(argument, depth + 1)
+                if name in ROOTS:
+                    self._check_root(value, node)
+                return self._finite(FUNCTIONS[name](value), node)
             case ast.BinOp(op=ast.BitXor()):
                 raise self._refuse("the operator '^'", "write a power as x**2")
         raise self._refuse(self._source(node), "use numbers, names, + - * / ** and functions")
@@ -168,6 +176,8 @@ class _Reader:
             )
         if a.is_zero and b < 0:
             raise self._refuse(self._source(node), "a denominator must not be zero")
+        if not b.is_Integer:
+            self._check_root(a, node)
         self._check_bits(_bits(a) * max(1, abs(int(b))), node)
         return self._finite(a**b, node)
 
@@ -192,6 +202,12 @@ class _Reader:
     def _check_bits(self, bits: int, node: ast.expr) -> None:
         if bits > MAX_BITS:
             raise self._refuse(self._source(node), f"a number may have at most {MAX_BITS} bits")
+
+    def _check_root(self, value: Any, node: ast.expr) -> None:
+        if _bits(value) > MAX_ROOT_BITS:
+            raise self._refuse(
+                self._source(node), f"a number under a root may have at most {MAX_ROOT_BITS} bits"
+            )
 
     def _finite(self, value: Any, node: ast.expr) -> Any:
         if value.has(sp.zoo, sp.nan, sp.oo, -sp.oo):

@@ -68,6 +68,11 @@ class RealNumber(ABC):
         """Return the number for people."""
 
     @property
+    def is_short(self) -> bool:
+        """True if the number has a short text."""
+        return self.radical is not None
+
+    @property
     def is_rational(self) -> bool:
         """True if the number is known to be rational."""
         return False

@@ -177,28 +177,48 @@ def characteristic_report(face: Face) -> dict[str, Any]:
     }
 
 
-def latex_pairs(pairs: EigenPairs) -> str:
-    """Return the real E-eigenpairs of one order as a LaTeX array."""
+def latex_pairs(pairs: EigenPairs, digits: int = 12) -> str:
+    """Return the real E-eigenpairs of one order as a LaTeX array.
+
+    Parameters
+    ----------
+    pairs
+        The pairs of the order.
+    digits
+        Significant digits of the angles and of what has no short exact form.
+    """
     if pairs.status != "ok":
         return rf"\[ \text{{order {pairs.order}: {pairs.status}}} \]"
     rows = []
     for p in pairs:
-        angle = sp.sstr(p.angle_degrees(8))
-        if p.tangent is None or p.tangent.radical is not None:
+        angle = _decimal_latex(p.angle_degrees(digits)) + r"^\circ"
+        if p.tangent is None or p.tangent.is_short:
             vector = ", ".join(sp.latex(c) for c in p.vector)
         else:
-            vector = rf"\cos {angle}^\circ, \sin {angle}^\circ"
-        number = p.eigenvalue_number
+            vector = rf"\cos {angle}, \sin {angle}"
         value = (
             sp.latex(p.eigenvalue)
-            if number.radical is not None
-            else sp.sstr(p.eigenvalue_float(12))
+            if p.eigenvalue_number.is_short
+            else _decimal_latex(p.eigenvalue_float(digits))
         )
         kind = rf"\text{{{p.kind.label}}}"
-        rows.append(rf"  {angle}^\circ & ({vector}) & {value} & {kind} & {p.multiplicity} \\")
+        rows.append(rf"  {angle} & ({vector}) & {value} & {kind} & {p.multiplicity} \\")
     head = r"  \theta & v & \lambda & \text{kind} & \text{mult.} \\ \hline"
     body = "\n".join(rows)
     return f"\\[ \\begin{{array}}{{rcccc}}\n{head}\n{body}\n\\end{{array}} \\]"
+
+
+def decimal_text(value: Any) -> str:
+    """Return a SymPy float in decimals, without zeros at the end that say nothing."""
+    mantissa, exponent, power = str(value).partition("e")
+    if "." in mantissa:
+        mantissa = mantissa.rstrip("0").rstrip(".")
+    return mantissa + exponent + power
+
+
+def _decimal_latex(value: Any) -> str:
+    mantissa, exponent, power = decimal_text(value).partition("e")
+    return rf"{mantissa} \cdot 10^{{{int(power)}}}" if exponent else mantissa
 
 
 def short_form(form: BinaryForm, length: int = 60) -> str:

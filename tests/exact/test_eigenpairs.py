@@ -1,5 +1,7 @@
 """Real E-eigenpairs: exact values, proved counts, kinds, multiplicities, statuses."""
 
+from fractions import Fraction
+
 import mpmath
 import numpy as np
 import pytest
@@ -8,7 +10,8 @@ from hypothesis import assume, given
 
 from pdtheory.conventions import Kind
 from pdtheory.errors import InputError
-from pdtheory.exact import BinaryForm, WavejetsRow, real_eigenpairs
+from pdtheory.exact import BinaryForm, RealAlgebraic, WavejetsRow, real_eigenpairs
+from pdtheory.exact.enclosing import enclose_real
 from pdtheory.testing.profiles import examples
 from pdtheory.testing.strategies import any_forms, forms, forms_with_repeated_roots
 
@@ -226,6 +229,41 @@ def test_de_lathauwer_2000():
     assert [float(c) for c in best.vector] == pytest.approx([0.9264, -0.3764], abs=1e-4)
     values = sorted(abs(float(p.eigenvalue_float())) for p in pairs)
     assert values[::2] == pytest.approx([1.4020, 2.8311, 3.1155], abs=1e-4)
+
+
+def test_numbers_of_thousands_of_digits_are_not_factored():
+    """SymPy's square root of such a number takes minutes, and Python does not write it."""
+    pairs = BinaryForm([10**5000, 0, 0, 1]).eigenpairs()
+    assert [p.multiplicity for p in pairs] == [1] * 6
+    texts = [p.exact_text for p in pairs]
+    assert texts[0].startswith("v = (1, 0), lambda = a number in [10")
+    assert texts[1].startswith("tan(theta) = a number in [1")
+    assert "lambda = the root of an irreducible polynomial of degree 2 in [0." in texts[1]
+    with mpmath.workdps(50):
+        # tan(theta) = 10^5000: all but vertical, where f = y^3.
+        assert mpmath.almosteq(mpmath.mpf(pairs[1].eigenvalue_float(40)), 1)
+
+
+def test_radicals_of_nearly_the_longest_text_are_found():
+    # sqrt(a) + sqrt(b) has a minimal polynomial of about twice the digits of a and b.
+    a, b = 10**15 + 37, 10**15 + 91
+    number = RealAlgebraic.select(
+        ((a - b) ** 2, 0, -2 * (a + b), 0, 1),
+        lambda bits: enclose_real(sp.sqrt(a) + sp.sqrt(b), bits),
+    )
+    assert number.is_short
+    assert sp.expand(number.radical - sp.sqrt(a) - sp.sqrt(b)) == 0
+    fraction = sp.Rational(10**19 + 51, 10**19 + 57)
+    assert RealAlgebraic.rational(Fraction(fraction.p, fraction.q)).text() == str(fraction)
+
+
+@pytest.mark.parametrize("scale", [sp.pi, sp.E * 2, sp.log(2)])
+def test_a_common_factor_is_multiplied_out(scale):
+    texts = [p.eigenvalue_text() for p in BinaryForm([scale, 0, 0]).eigenpairs()]
+    assert texts == [str(scale), "0", str(scale), "0"]
+    # Where the other factor is no short number the two stand side by side.
+    quartic = BinaryForm([scale, 0, 0, scale, 0]).eigenpairs()
+    assert f"{scale} times the root of" in quartic[1].eigenvalue_text()
 
 
 @pytest.mark.parametrize("d", [3, 4, 5, 6, 7])

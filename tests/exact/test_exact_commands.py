@@ -2,6 +2,7 @@
 
 import json
 
+import mpmath
 import pytest
 import typer
 from typer.testing import CliRunner
@@ -98,6 +99,23 @@ def test_latex():
     assert r"T_{3}v^{3}" in text
     assert r"\frac{\sqrt{3}}{2}" in text
     assert text.count(r"\begin{array}") == text.count(r"\end{array}") == 1
+
+
+def test_latex_has_the_digits_that_are_asked_for():
+    lines = run("eigen", "x**4 + x*y**3", "--latex", "--digits", "30").splitlines()
+    angles = [line.split("&")[0].strip() for line in lines if r"\text{m" in line and "&" in line]
+    # F(1, t) = -4 + 3 t - t^3 up to a sign.
+    with mpmath.workdps(50):
+        t = mpmath.findroot(lambda t: t**3 - 3 * t + 4, -2.2)
+        theta = mpmath.nstr(mpmath.degrees(mpmath.atan(t)) + 180, 30)
+        turned = mpmath.nstr(mpmath.degrees(mpmath.atan(t)) + 360, 30)
+        cosine = 1 / mpmath.sqrt(1 + t**2)
+        value = mpmath.nstr(24 * cosine**4 * (1 + t**3), 30)
+    expected = [r"\theta", r"0^\circ", rf"{theta}^\circ", r"180^\circ", rf"{turned}^\circ"]
+    assert angles == expected
+    assert sum(f"& {value} &" in line for line in lines) == 2
+    large = run("eigen", "1e60*x**4 + x*y**3", "--latex", "--digits", "3")
+    assert r"2.4 \cdot 10^{61}" in large
 
 
 def test_inverse():
