@@ -68,6 +68,8 @@ def verify(
 
 
 def _print(console: Console, results: list[Result], *, certificates: bool) -> None:
+    from pdtheory.paper.claims.plain import plain_text
+
     console.print(_table(results))
     for result in results if certificates else ():
         _print_certificate(console, result)
@@ -76,7 +78,8 @@ def _print(console: Console, results: list[Result], *, certificates: bool) -> No
         console.print(f"\n{result.claim.id}: recorded as {result.claim.verdict}, but:")
         for step in result.steps:
             if not step.holds:
-                console.print(f"  this {step.shows} does not hold: {step.text}", markup=False)
+                text = plain_text(step.text)
+                console.print(f"  this {step.shows} does not hold: {text}", markup=False)
         if all(step.holds for step in result.steps):
             console.print(f"  its steps show: {result.verdict}")
     steps = sum(len(result.steps) for result in results)
@@ -91,14 +94,16 @@ def _print_certificate(console: Console, result: Result) -> None:
     from rich.padding import Padding
     from rich.text import Text
 
+    from pdtheory.paper.claims.plain import plain_text
+
     claim = result.claim
     console.print(f"\n[bold]{claim.id}[/bold] ({claim.place})")
     if claim.printed:
-        console.print(Padding(Text(f"Printed: {claim.printed}"), (0, 0, 0, 2)))
-    console.print(Padding(Text(f"True: {claim.statement}"), (0, 0, 0, 2)))
+        console.print(Padding(Text(f"Printed: {plain_text(claim.printed)}"), (0, 0, 0, 2)))
+    console.print(Padding(Text(f"True: {plain_text(claim.statement)}"), (0, 0, 0, 2)))
     for number, step in enumerate(result.steps, start=1):
         sign = "" if step.holds else " - DOES NOT HOLD"
-        line = f"{number}. {step.shows}{sign}: {step.text}"
+        line = f"{number}. {step.shows}{sign}: {plain_text(step.text)}"
         console.print(Padding(Text(line), (0, 0, 0, 2)))
         for name, value in step.data.items():
             console.print(Padding(Text(f"{name}: {value}", style="dim"), (0, 0, 0, 5)))

@@ -9,6 +9,7 @@ from typer.testing import CliRunner
 from pdtheory.cli.verify import verify
 from pdtheory.errors import FileAccessError, InputError
 from pdtheory.paper import claims
+from pdtheory.paper.claims.plain import plain_text
 
 QUICK = ["parity-odd", "lemma-gradient"]
 
@@ -31,6 +32,40 @@ def test_table_and_exit_code(run):
     assert "2 of 2 claims come out as recorded" in result.output
     # Claims that are named are shown with their certificates.
     assert "Derivative(x**i*y**(-i + k)*binomial(k, i), x)" in result.output.replace("\n", "")
+
+
+def test_formulas_are_printed_in_plain_characters(run):
+    output = " ".join(run("krosy-iff").output.split())
+    assert "if and only if phi_{k,n} = 0 for all n != +- k." in output
+    assert "cos 4 theta + 1/2 cos 2 theta" in output
+    assert "u_j = e^(2 i theta_j), because 2 is invertible mod k" in output
+
+
+def test_no_claim_leaves_latex_in_the_terminal():
+    # Lone braces would be those of a command that was not read with its argument.
+    for claim in claims.CLAIMS:
+        for text in (claim.printed, claim.statement):
+            plain = plain_text(text)
+            assert not set(plain) & set("$\\"), plain
+            assert plain.count("(") == plain.count(")") or text.count("(") != text.count(")")
+
+
+@pytest.mark.parametrize(
+    ("formula", "plain"),
+    [
+        (r"$\frac{a+b}{2}$", "(a+b)/2"),
+        (r"$\frac12 \cos\theta$", "1/2 cos theta"),
+        (r"$2\pi i$", "2 pi i"),
+        (r"$\sqrt{x^{k-1}}$", "sqrt(x^(k-1))"),
+        (r"$e^{-i s} x^k y^{10}$", "e^(-i s) x^k y^10"),
+        (r"$\overline{\phi_{k,n}}$", "conj(phi_{k,n})"),
+        (r"$\binom{k}{i}$ of $\{0, \pm k\}$", "binomial(k, i) of {0, +- k}"),
+        (r"$60^\circ$", "60 degrees"),
+        ("no formula, 5_3 and {a}", "no formula, 5_3 and {a}"),
+    ],
+)
+def test_plain_text(formula, plain):
+    assert plain_text(formula) == plain
 
 
 def test_json(run):
@@ -61,6 +96,7 @@ def test_a_different_verdict_gives_exit_code_1(run, monkeypatch):
     ("arguments", "sentence"),
     [
         (["no-such-claim"], "no claim 'no-such-claim'"),
+        (["qqqq"], "without an id all are checked and listed"),
         (["--orders", "1:4"], "between 2 and"),
         (["--orders", "two"], "cannot read the orders"),
         (["--report", "paper.docx"], "docx"),

@@ -273,6 +273,10 @@ def select(claims: Iterable[Claim], ids: Iterable[str]) -> tuple[Claim, ...]:
     for name in wanted:
         if name not in known:
             near = get_close_matches(name, known, n=3, cutoff=0.4)
-            hint = f"did you mean {' or '.join(near)}?" if near else "list them with no id."
+            hint = (
+                f"did you mean {' or '.join(near)}?"
+                if near
+                else "without an id all are checked and listed."
+            )
             raise InputError(f"there is no claim {name!r}; {hint}")
     return tuple(known[name] for name in dict.fromkeys(wanted))
