@@ -1,6 +1,8 @@
 """``pdtheory eigen``, as a user meets it."""
 
 import json
+import subprocess
+import sys
 from collections.abc import Callable
 from typing import Any
 
@@ -103,3 +105,17 @@ def test_the_frame_on_a_surface_can_be_read(cli: Run) -> None:
         "  y      (0, sqrt(2)/2, -sqrt(2)/2)",
         "  normal (1/3, 2/3, 2/3)",
     ]
+
+
+def test_numbers_of_more_digits_than_python_writes() -> None:
+    """The installed command lifts the limit of Python, in a process of its own."""
+    code = "import sys; from pdtheory.cli.main import run; sys.argv[0] = 'pdtheory'; run()"
+    result = subprocess.run(
+        [sys.executable, "-c", code, "eigen", "1e5000*x**2", "--latex", "--digits", "3"],
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=120,
+    )
+    assert f"T_{{2}}v^{{2}} = 2{'0' * 5000} x^{{2}}" in result.stdout
+    assert r"& 2 \cdot 10^{5000} &" in result.stdout
