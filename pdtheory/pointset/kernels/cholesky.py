@@ -105,14 +105,18 @@ def factor(to: Lanes, gram: Rows, count: Any, diagonal: Rows, pivots: Rows, inve
         [to.get(gram.at(to.minus(rows, q), to.minus(rows, p))) for q in range(p + 1)]
         for p in range(PANEL)
     ]
-    sound = to.variable(to.builder.icmp_signed("==", count, count))
+    yes = to.builder.icmp_signed("==", count, count)
+    sound, going = to.variable(yes), to.variable(yes)
     corner = [to.variable(v) for v in _corner(to, block, rows, diagonal, pivots, inverses, sound)]
-    with to.count(0, panels) as panel, to.builder.if_then(to.get(sound), likely=True):
+    with to.count(0, panels) as panel, to.builder.if_then(to.get(going), likely=True):
         top = to.minus(rows, to.mul(panel, PANEL))
         row = [to.minus(top, p) for p in range(PANEL)]
+        # Also where a pivot of this panel failed: the rows before that one are good.
         _scale(to, gram, row, [to.get(v) for v in corner])
+        to.put(to.get(sound), going)
         below = to.minus(top, PANEL)
-        with to.builder.if_then(to.builder.icmp_signed(">", below, to.integer(0)), likely=True):
+        more = to.builder.icmp_signed(">", below, to.integer(0))
+        with to.builder.if_then(to.builder.and_(more, to.get(sound)), likely=True):
             # The next corner is worked out ahead: its roots and quotients take as long as the rest.
             block = []
             for p in range(PANEL):
@@ -171,7 +175,7 @@ def _corner(
     inverse = [build.select(g, to.root(s), zero) for g, s in zip(goods, squares, strict=True)]
     for p in range(PANEL):
         to.put(inverse[p], inverses.at(to.minus(top, p)))
-    # It ends the work after the rows of its own panel.
+    # A failure ends the work after the rows of its own panel.
     to.put(good, sound)
     factors = [
         build.select(goods[q], to.times(rows[p][q], inverse[q]), zero)
