@@ -168,7 +168,8 @@ def gather_listed(
         cloud[0, j] = x
         cloud[1, j] = y
         cloud[2, j] = z
-        cloud[3, j] = x * x + y * y + z * z
+        # The last of them gave the radius, and rounding must not put it outside.
+        cloud[3, j] = min(x * x + y * y + z * z, 1.0)
     return len(members)
 
 
