@@ -25,7 +25,8 @@ from pdtheory.pointset.kernels.tables import SAMPLES, SIDE, layout
 
 #: Points whose angles are polished together.
 BATCH = 32
-
+#: Angles beyond this one are pi within rounding.
+_HALF_CIRCLE = np.pi - 1e-15
 
 #: Memory of one thread.
 BENCH = layout(
@@ -223,10 +224,18 @@ def _store(
         numbers = out.numbers[slots[q]]
         unit = factorial / bench.scale[q - start]
         largest = bench.largest[q - start]
-        for _ in range(count):
-            c = table[COSINE, at]
-            s = table[SINE, at]
-            g = table[VALUE, at] * largest
+        # What rounding has put at pi is the opposite of a direction at 0, and comes first.
+        wraps = table[ANGLE, at + count - 1] > _HALF_CIRCLE
+        for i in range(count):
+            j = at + i
+            way = 1.0
+            if wraps:
+                j = at + (i + count - 1) % count
+                way = 1.0 if i else -1.0
+            sign = way if order % 2 else 1.0
+            c = way * table[COSINE, j]
+            s = way * table[SINE, j]
+            g = sign * table[VALUE, j] * largest
             angle_std = np.nan
             g_std = np.nan
             if uncertain:
@@ -240,9 +249,9 @@ def _store(
                     s * turn_c + c * turn_s,
                     bench,
                 )
-                curvature = abs(table[CURVATURE, at]) * largest
+                curvature = abs(table[CURVATURE, j]) * largest
                 angle_std = slope / curvature if curvature > 0.0 else np.inf
-            rows[row, results.ANGLE] = table[ANGLE, at]
+            rows[row, results.ANGLE] = max(table[ANGLE, j], 0.0) if way > 0.0 else 0.0
             for axis in range(3):
                 first = numbers[results.FRAME + axis]
                 rows[row, results.VECTOR + axis] = c * first + s * numbers[results.FRAME + 3 + axis]
@@ -250,9 +259,9 @@ def _store(
             rows[row, results.STRENGTH] = abs(g)
             rows[row, results.ANGLE_STD] = angle_std
             rows[row, results.EIGENVALUE_STD] = g_std * unit
-            rows[row, results.KIND] = bench.kind[at]
+            rows[row, results.KIND] = sign * bench.kind[j]
             row += 1
-            at += 1
+        at += count
     return row
 
 

@@ -21,6 +21,8 @@ from pdtheory.pointset.kernels.tables import SAMPLES
 #: Largest number of halvings; below that width two zeros count as a double one.
 DEPTH = 18
 _FINEST = pi / SAMPLES * 2.0**-DEPTH
+#: Times what cannot be told from zero: as far as that a multiple zero reaches.
+_NEAR = 8.0
 #: Rows of a table of brackets: the angle, the ends of the interval that holds it, h rising (1) or
 #: falling (-1), then g, g'' and the cosine and sine of the angle; from COEFFICIENTS on, real and
 #: imaginary parts of phi_n in turn.
@@ -132,6 +134,19 @@ def _note(
 
 
 @inner
+def _widen(table: Array, kind: Array, at: int, low: float, high: float, change: float) -> None:
+    """Let an interval with a multiple zero reach from `low` to `high`.
+
+    `change` is the kind of the change of sign that comes in, or 0. Two of them in turn make none.
+    """
+    kind[at] += change
+    table[ANGLE, at] = max(0.5 * (low + high), 0.0)
+    table[LOW, at] = low
+    table[HIGH, at] = high
+    table[RISING, at] = -kind[at]
+
+
+@inner
 def _note_axes(re: Array, im: Array, table: Array, kind: Array, found: int) -> None:
     """Write down the angles of order 2: g = phi_0 + 2 |phi_2| cos(2 theta + arg phi_2)."""
     high = -0.5 * np.arctan2(im[1], re[1])
@@ -200,6 +215,8 @@ def bracket_angles(
     found = begin
     if third == 0.0:
         return 0
+    floor = third * _FINEST * _FINEST / 8.0  # of h that cannot be told from zero
+    near = _NEAR * floor
     if order == 2:
         _note_axes(re, im, table, kind, begin)
         return 2
@@ -210,9 +227,12 @@ def bracket_angles(
     # h(theta + pi) = (-1)^k h(theta), to the bit, so that a zero at 0 is found once.
     samples[0, SAMPLES] = -samples[0, 0] if parity else samples[0, 0]
     samples[1, SAMPLES] = -samples[1, 0] if parity else samples[1, 0]
+    multiple = open_end = False  # whether there is a multiple zero, and whether it is the last one
     count = int(_find_candidates(samples, clear, intervals))
     intervals[count] = SAMPLES
     for i in range(count + 1):
+        if found == begin + order:
+            break
         sample = int(intervals[i])
         ha = samples[0, sample - 1]
         hb = samples[0, sample]
@@ -223,6 +243,7 @@ def bracket_angles(
             low = (sample - 1) * width
             _note(re, im, order, low, low + width, ha, hb, True, hb < 0.0, table, kind, found)
             found += 1
+            open_end = False
             continue
         top = 0
         stack[0, 0] = (sample - 1) * width
@@ -245,10 +266,11 @@ def bracket_angles(
             if sample == SAMPLES and high >= SAMPLES * width and hb == 0.0:
                 negative_b = parity == 1
             change = negative_a != negative_b
-            if not change and min(abs(ha), abs(hb)) > third * d * d / 8.0:
-                continue
+            none = not change and min(abs(ha), abs(hb)) > third * d * d / 8.0
             monotone = da * db > 0.0 and min(abs(da), abs(db)) > fourth * d * d / 8.0
-            if not monotone and d > _FINEST:
+            # Where both ends may be zero, their signs mean nothing.
+            monotone = monotone and max(abs(ha), abs(hb)) > floor
+            if not none and not monotone and d > _FINEST:
                 middle = 0.5 * (low + high)
                 hm, dm = evaluate(re, im, order, middle)
                 stack[top + 1, 0] = middle
@@ -265,16 +287,36 @@ def bracket_angles(
                 stack[top + 2, 5] = dm
                 top += 2
                 continue
-            if not change and monotone:
+            if none or (not change and monotone):
+                if open_end and low - table[HIGH, found - 1] < 3.0 * _FINEST and abs(hb) <= near:
+                    table[HIGH, found - 1] = high
                 continue
             merge = found > begin and low - table[HIGH, found - 1] < 3.0 * _FINEST
-            if merge and not monotone:
+            if merge and (not monotone or (open_end and abs(ha) <= near)):
                 # The same multiple zero, seen from the next interval.
+                here = 0.0
                 if change:
-                    kind[found - 1] = 1.0 if negative_b else -1.0
+                    here = 1.0 if negative_b else -1.0
+                start = table[LOW, found - 1]
+                if not open_end:
+                    start = max(start, low - 3.0 * _FINEST)
+                end = min(high, low + 3.0 * _FINEST) if monotone else high
+                if open_end or change:
+                    _widen(table, kind, found - 1, start, end, here)
+                open_end = not monotone
+                multiple = True
                 continue
             if found == begin + order:
                 break
             _note(re, im, order, low, high, ha, hb, change, negative_b, table, kind, found)
+            open_end = not monotone
+            multiple = multiple or open_end
             found += 1
+    if multiple and found > begin + 1:
+        low = table[LOW, found - 1] - np.pi
+        if table[LOW, begin] - (table[HIGH, found - 1] - np.pi) < 3.0 * _FINEST:
+            # A multiple zero at 0, seen from both ends; h(theta - pi) = (-1)^k h(theta).
+            found -= 1
+            here = -kind[found] if parity else kind[found]
+            _widen(table, kind, begin, low, table[HIGH, begin], here)
     return found - begin
