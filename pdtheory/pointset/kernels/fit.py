@@ -27,6 +27,9 @@ PREFIT_DEGREE = 4
 MARGIN = 1.25
 #: Tilts with the full fit.
 RETILTS = 8
+#: A tilt must leave less than the first part of the slope, and no more than the second multiple of
+#: the residual.
+STEADY, WORSE = 0.5, 2.0
 #: With l1 the residual may be that of outliers, so a tenth of it decides about another tilt.
 TRUST_L1 = 0.1
 #: Distance of the weighted centroid, as a fraction of the radius, of a one-sided neighbourhood.
@@ -189,6 +192,7 @@ def fit_point(
     turns = RETILTS if tangent else 0
     trusted = TRUST_L1 if settings.robust else 1.0
     turn = 0
+    slope = before = np.inf
     while True:
         cx, cy, weight = project(cloud, points, n, settings.planar, w)
         reached, pivot = regress(cloud, WEIGHT, n, degree, w)
@@ -198,10 +202,21 @@ def fit_point(
         for i in range(len(w.c)):
             w.centred[i] = w.c[i]
         shift(w.c, degree, cx, cy, w.table)
-        if turn == turns or not tilt_matters(w.c, degree, trusted * residual, w.norms):
+        if turn == turns:
+            break
+        last = degree_start(degree, 0)
+        size = np.sqrt(w.c[last - 2] * w.c[last - 2] + w.c[last - 1] * w.c[last - 1])
+        if turn > 0 and not (size < STEADY * slope and residual < WORSE * before):
+            # The samples do not bear this frame; back to the one before, for good.
+            w.frame[:] = w.kept
+            turn = turns
+            continue
+        if not tilt_matters(w.c, degree, trusted * residual, w.norms):
             break
         turn += 1
-        last = degree_start(degree, 0)
+        w.kept[:] = w.frame
+        slope = size
+        before = residual
         tilt(w.frame, w.c[last - 2], w.c[last - 1])
         face(w.frame, reference[0], reference[1], reference[2])
     if refined:

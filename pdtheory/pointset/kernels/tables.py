@@ -110,6 +110,7 @@ WORKSPACE = layout(
     slope=JET,
     norms=(SIDE,),
     frame=(3, 3),
+    kept=(3, 3),
     A=(3, 3),
     B=(3, 3),
     Q=(3, 3),
