@@ -1,7 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Principal directions of arbitrary order on Blender objects: the extension."""
 
-from . import (
+from .library import forget_replaced
+
+# Before anything of the library is imported.
+forget_replaced()
+
+from . import (  # noqa: E402
     add_mesh,
     compute,
     exact_directions,

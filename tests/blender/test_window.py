@@ -25,9 +25,9 @@ DRIVER = Path(__file__).parent / "gui" / "drive.py"
 
 
 def call(*words, timeout=900):
-    return subprocess.run(
-        [PROGRAM, *words], capture_output=True, text=True, check=True, timeout=timeout
-    ).stdout
+    done = subprocess.run([PROGRAM, *words], capture_output=True, text=True, timeout=timeout)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
 
 
 @pytest.fixture(scope="module", params=["sid", "trixie"])
