@@ -12,6 +12,7 @@ from bpy.props import (
     StringProperty,
 )
 
+from pdtheory.blender.result import strokes_of
 from pdtheory.drawing.glyphs import ORDERS
 
 #: The orders that can be computed in Blender.
@@ -108,13 +109,38 @@ class DirectionsProgress(bpy.types.PropertyGroup):
     text: StringProperty(options={"SKIP_SAVE", "HIDDEN"})
 
 
+def _kept(key, empty):
+    """Return what gets and sets a property of an object that is kept with its strokes.
+
+    An object linked from another file keeps nothing, and strokes are local. What is set before
+    there are strokes stays with the object.
+    """
+
+    def get(group):
+        places = (strokes_of(group.id_data), group.id_data)
+        return next((place[key] for place in places if place is not None and key in place), empty)
+
+    def put(group, value):
+        (strokes_of(group.id_data) or group.id_data)[key] = value
+
+    return {"get": get, "set": put}
+
+
 class DirectionsResult(bpy.types.PropertyGroup):
     """What is known about the result on an object."""
 
-    summary: StringProperty(description="The result in words, one line each")
-    comparison: StringProperty(description="Estimated against exact directions, one line each")
+    summary: StringProperty(
+        description="The result in words, one line each", **_kept("pdtheory_summary", "")
+    )
+    comparison: StringProperty(
+        description="Estimated against exact directions, one line each",
+        **_kept("pdtheory_comparison", ""),
+    )
     point: IntProperty(
-        name="Vertex", description="Vertex whose directions are listed", min=0, default=0
+        name="Vertex",
+        description="Vertex whose directions are listed",
+        min=0,
+        **_kept("pdtheory_point", 0),
     )
     surface: StringProperty(description="Recipe of the synthetic surface the object was made from")
 

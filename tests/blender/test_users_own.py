@@ -311,6 +311,15 @@ def test_strokes_of_a_linked_object_are_local(operators, tmp_path, overridden):
     assert home.library is None
     assert home.override_library is None
     assert len([o for o in bpy.data.objects if "directions" in o.name]) == 1
+    thing.principal_directions.point = 7
+    before = thing.principal_directions.summary
+    assert "points answered" in before
+    user = str(tmp_path / "user.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=user)
+    bpy.ops.wm.open_mainfile(filepath=user)
+    (thing,) = (o for o in bpy.data.objects if o.name == "monkey" and strokes_of(o))
+    assert thing.principal_directions.summary == before
+    assert thing.principal_directions.point == 7
 
 
 def test_linked_strokes_are_not_overwritten(operators, tmp_path, monkey):
