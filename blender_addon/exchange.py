@@ -8,7 +8,8 @@ from bpy.props import StringProperty
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 
 from pdtheory.blender import compat
-from pdtheory.blender.result import describe, field_of, show_result, source_for, strokes_of
+from pdtheory.blender.matching import source_for
+from pdtheory.blender.result import describe, field_of, show_result, strokes_of
 from pdtheory.errors import InputError, PdtheoryError
 
 from .jobs import has_points, has_result, redraw, surface_object

@@ -8,14 +8,13 @@ import bpy
 
 from pdtheory.blender.result import (
     BALL_KEY,
-    POINTS_KEY,
-    VERTICES_KEY,
     at_samples,
     collection_of,
     field_of,
     point_of_vertex,
     strokes_of,
 )
+from pdtheory.blender.storage import POINTS_KEY, VERTICES_KEY
 from pdtheory.conventions import Kind, Status
 from pdtheory.errors import InputError, PdtheoryError
 

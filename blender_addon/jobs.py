@@ -8,8 +8,9 @@ import bpy
 from bpy.app.handlers import persistent
 
 from pdtheory.blender.background import Job
-from pdtheory.blender.result import POINTS_KEY, forget_all, strokes_of
+from pdtheory.blender.result import forget_all, strokes_of
 from pdtheory.blender.source import TYPES
+from pdtheory.blender.storage import POINTS_KEY
 from pdtheory.errors import Cancelled, PdtheoryError
 
 _INTERVAL = 0.1

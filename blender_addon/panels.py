@@ -7,6 +7,7 @@ import bpy
 
 from pdtheory.blender import compat
 from pdtheory.blender.glyphs import ORDERS_KEY, find_modifier
+from pdtheory.blender.matching import changed_since
 from pdtheory.blender.result import strokes_of
 from pdtheory.errors import PdtheoryError
 
@@ -96,6 +97,10 @@ class DIRECTIONS_PT_result(_DirectionsPanel, bpy.types.Panel):  # noqa: N801
     def draw(self, context):
         layout = self.layout
         thing = surface_object(context)
+        if changed_since(thing, strokes_of(thing)):
+            changed = layout.column()
+            changed.alert = True
+            _sentence(context, changed, f"{thing.name} has changed since; compute again.")
         for line in thing.principal_directions.summary.splitlines():
             _sentence(context, layout, line)
         if thing.principal_directions.surface:
@@ -153,7 +158,8 @@ class DIRECTIONS_PT_point(_DirectionsPanel, bpy.types.Panel):  # noqa: N801
         layout = self.layout
         thing = surface_object(context)
         if thing.mode != "EDIT":
-            layout.prop(thing.principal_directions, "point")
+            # Through the strokes: what is linked from another file cannot be changed.
+            layout.prop(strokes_of(thing).principal_directions, "point")
         try:
             found = active_point(thing)
             if thing.mode == "EDIT":

@@ -6,7 +6,8 @@ import bpy.utils.previews
 import numpy as np
 
 from pdtheory.blender.background import Job
-from pdtheory.blender.result import POINTS_KEY, strokes_of
+from pdtheory.blender.result import strokes_of
+from pdtheory.blender.storage import POINTS_KEY
 from pdtheory.errors import PdtheoryError
 from pdtheory.plots.polar import figure_pixels, polar_figure
 

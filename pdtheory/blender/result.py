@@ -9,13 +9,11 @@ opened.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 from typing import Any, Final
 
 import bpy
 import numpy as np
 from mathutils import Matrix
-from mathutils.bvhtree import BVHTree
 
 from pdtheory.blender.glyphs import (
     add_glyphs,
@@ -26,11 +24,17 @@ from pdtheory.blender.glyphs import (
     propose,
 )
 from pdtheory.blender.shading import store_strengths
-from pdtheory.blender.source import Source, read_object
-from pdtheory.blender.storage import POINTS_KEY, VERTEX, fill_points, read_field, take
+from pdtheory.blender.source import Source
+from pdtheory.blender.storage import (
+    POINTS_KEY,
+    VERTEX,
+    VERTICES_KEY,
+    fill_points,
+    read_field,
+    take,
+)
 from pdtheory.drawing.glyphs import GlyphData, glyph_data
 from pdtheory.errors import InputError
-from pdtheory.pointset.cloud import FloatArray, IntArray
 from pdtheory.pointset.field import DirectionField
 from pdtheory.pointset.summary import order_summaries, status_sentences
 
@@ -40,14 +44,8 @@ SUFFIX_KEY: Final = "pdtheory_suffix"
 #: Property of the object that shows the neighbourhood of a point.
 BALL_KEY: Final = "pdtheory_ball"
 
-#: Property of the points: the number of vertices of the mesh that was computed on.
-VERTICES_KEY: Final = "pdtheory_vertices"
-
 #: About how many points of a result carry strokes at first.
 STROKES: Final = 300
-
-#: Of a field from a file so many points are asked whether they lie on the object.
-_ASKED: Final = 2000
 
 #: Fields of this session in double precision, by the `session_uid` of their points; a file holds
 #: single.
@@ -215,50 +213,6 @@ def point_of_vertex(strokes: Any, vertex: int) -> int | None:
         return vertex
     found = np.flatnonzero(take(points, VERTEX, 1, whole=True) == vertex)
     return int(found[0]) if len(found) else None
-
-
-def source_for(thing: Any, field: DirectionField) -> Source:
-    """Find out how the points of a field from a file lie on an object, at its vertices or between.
-
-    Raises
-    ------
-    InputError
-        If they do not lie on it.
-    """
-    for evaluated in (False, True):
-        source = read_object(thing, evaluated=evaluated)
-        local = source.cloud.points @ np.linalg.inv(source.linear).T
-        for points, linear in ((local, np.eye(3)), (source.cloud.points, source.linear)):
-            if _same_points(field.points, points):
-                return replace(source, linear=linear)
-            if source.cloud.faces is not None and _on_surface(
-                field.points, points, source.cloud.faces
-            ):
-                return replace(source, linear=linear, vertex=None)
-    raise InputError(
-        f"the field of {len(field)} points does not lie on {thing.name} "
-        f"({source.vertices} vertices); import it on the object it was computed on."
-    )
-
-
-def _same_points(wanted: FloatArray, points: FloatArray) -> bool:
-    """Return True if points agree in number and place, within single precision."""
-    if len(wanted) != len(points):
-        return False
-    size = float(np.ptp(points, axis=0).max()) + float(np.abs(points).max())
-    finite = np.isfinite(wanted).all(axis=1)
-    return bool(np.abs(wanted[finite] - points[finite]).max(initial=0.0) <= 1e-5 * size)
-
-
-def _on_surface(wanted: FloatArray, points: FloatArray, faces: IntArray) -> bool:
-    """Return True if points lie on triangles, within single precision; some of many are asked."""
-    finite = wanted[np.isfinite(wanted).all(axis=1)]
-    if not len(finite):
-        return False
-    size = float(np.ptp(points, axis=0).max()) + float(np.abs(points).max())
-    tree = BVHTree.FromPolygons(points.tolist(), faces.tolist(), all_triangles=True)
-    some = finite[:: -(-len(finite) // _ASKED)]
-    return all(tree.find_nearest(point, 1e-5 * size)[0] is not None for point in some.tolist())
 
 
 def forget_all() -> None:

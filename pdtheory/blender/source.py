@@ -79,7 +79,7 @@ def read_object(
     if evaluated and thing.mode == "SCULPT" and any(m.type == "MULTIRES" for m in thing.modifiers):
         # Blender gives the mesh without its finer levels then.
         raise InputError(f"{thing.name} is being sculpted with Multiresolution; leave Sculpt Mode.")
-    linear = np.array(thing.matrix_world.to_3x3(), dtype=np.float64)
+    linear = linear_part(thing.matrix_world)
     if abs(np.linalg.det(linear)) <= 1e-12 * np.linalg.norm(linear) ** 3:
         raise InputError(f"{thing.name} is scaled to zero along an axis; give it a thickness.")
     if thing.mode == "EDIT":
@@ -112,6 +112,11 @@ def read_object(
     assert normals is not None
     cloud = PointCloud(points[used], normals[used], new[faces], thing.name)
     return Source(cloud, linear, used, count, count - len(used))
+
+
+def linear_part(matrix: Any) -> FloatArray:
+    """Return the linear part of a `mathutils` matrix."""
+    return np.array(matrix.to_3x3(), dtype=np.float64)
 
 
 def fingerprint(thing: Any, *, evaluated: bool = True) -> bytes:

@@ -15,6 +15,9 @@ from pdtheory.pointset.field import DirectionField
 #: Property of a stroke object that refers to its points.
 POINTS_KEY: Final = "pdtheory_points"
 
+#: Property of the points: the number of vertices of the mesh that was computed on.
+VERTICES_KEY: Final = "pdtheory_vertices"
+
 #: Attribute of the points that says to which vertex of the surface each belongs.
 VERTEX: Final = "vertex"
 

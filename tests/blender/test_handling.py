@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from blender_objects import QUICK, refused
+from blender_objects import QUICK, refused, written
 
 pytestmark = pytest.mark.blender
 
@@ -117,6 +117,84 @@ def test_files_beside_the_blend_file(operators, monkey, tmp_path):
     assert operators.export_field(filepath="//directions") == {"FINISHED"}
     assert (tmp_path / "directions.npz").is_file()
     bpy.data.objects.remove(monkey.children[0])
-    monkey.principal_directions.summary = ""
+    assert monkey.principal_directions.summary == ""
     assert operators.import_field(filepath="//directions.npz") == {"FINISHED"}
     assert "points answered" in monkey.principal_directions.summary
+
+
+def subdivide(thing):
+    import bpy
+
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.subdivide()
+    bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def remesh(thing):
+    import bpy
+
+    thing.modifiers.new("remesh", "REMESH").voxel_size = 0.1
+    bpy.ops.object.modifier_apply(modifier="remesh")
+
+
+def stretch(thing):
+    thing.scale.z = 2.0
+
+
+def smooth_for_the_picture(thing):
+    thing.modifiers.new("smooth", "SUBSURF")
+
+
+def turn(thing):
+    thing.scale = (3.0, -3.0, 3.0)
+    thing.rotation_euler = (0.3, 0.2, 0.1)
+    thing.location.x = 4.0
+
+
+@pytest.mark.parametrize(
+    ("change", "stale"),
+    [
+        (subdivide, True),
+        (remesh, True),
+        (stretch, True),
+        (smooth_for_the_picture, False),
+        (turn, False),
+    ],
+)
+def test_a_result_that_is_no_longer_of_the_object_is_known(operators, monkey, change, stale):
+    import bpy
+
+    from pdtheory.blender.matching import changed_since
+    from pdtheory.blender.result import strokes_of
+
+    operators.compute(**QUICK)
+    assert not changed_since(monkey, strokes_of(monkey))
+    change(monkey)
+    bpy.context.view_layer.update()
+    assert changed_since(monkey, strokes_of(monkey)) == stale
+    operators.compute(**QUICK)
+    assert not changed_since(monkey, strokes_of(monkey))
+
+
+def test_a_result_with_modifiers_is_known_by_what_they_make(operators, monkey):
+    import bpy
+
+    from pdtheory.blender.matching import changed_since
+    from pdtheory.blender.result import strokes_of
+
+    finer = monkey.modifiers.new("finer", "SUBSURF")
+    operators.compute(**QUICK)
+    assert not changed_since(monkey, strokes_of(monkey))
+    finer.levels = 2
+    bpy.context.view_layer.update()
+    assert changed_since(monkey, strokes_of(monkey))
+
+
+def test_the_panel_says_that_the_object_has_changed(operators, monkey):
+    operators.compute(**QUICK)
+    lines = written("DIRECTIONS_PT_result")
+    assert "331 of 331 points answered." in lines
+    assert "changed" not in " ".join(lines)
+    subdivide(monkey)
+    assert "monkey has changed since; compute" in " ".join(written("DIRECTIONS_PT_result"))
