@@ -43,7 +43,11 @@ class AddSynthetic(AddObjectHelper):
         edited = context.edit_object
         thing = object_data_add(context, mesh, operator=self)
         if edited is None:
-            recipe = {"name": self.surface_name, "parameters": values}
+            recipe = {
+                "name": self.surface_name,
+                "parameters": values,
+                "resolution": self.resolution,
+            }
             thing.principal_directions.surface = json.dumps(recipe)
         else:
             # Blender has joined the new surface into the edited one, which is not what it was.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -16,6 +16,9 @@ from pdtheory.pointset.field import DirectionField
 
 if TYPE_CHECKING:
     from pdtheory.exact import SurfaceJet
+
+#: An estimate this far away, in radii of its neighbourhood, counts as one at the point itself.
+_NEAR: Final = 1e-3
 
 
 def field_of_jets(
@@ -102,18 +105,21 @@ class Agreement:
     order : int
         The order k.
     angle : (M,) float64
-        For each exact direction the angle in radians to the nearest estimated one of its kind; NaN
-        where the point has none.
+        For each exact direction at a point with an estimate the angle in radians to the nearest
+        estimated one of its kind; NaN where the point has none.
     eigenvalue : (M,) float64
         The difference of their eigenvalues, over the largest exact one at the point; NaN there.
     estimated : int
         Number of estimated directions at these points.
+    apart : int
+        Number of exact points that have no estimate on them, and are left out.
     """
 
     order: int
     angle: FloatArray
     eigenvalue: FloatArray
     estimated: int
+    apart: int
 
     def in_words(self) -> str:
         """Return the median and the worst angle, and how many were not found, as a line."""
@@ -133,7 +139,8 @@ def compare_fields(
     Parameters
     ----------
     estimated
-        A field of which every exact point has a point nearby; the nearest one counts.
+        A field. Exact points that have no point of it within a thousandth of its radius are left
+        out: directions turn from place to place, and that is no error.
     exact
         The exact field.
     linear : (3, 3) float64, optional
@@ -148,8 +155,10 @@ def compare_fields(
     linear = np.eye(3) if linear is None else linear
     scale = np.cbrt(abs(np.linalg.det(linear)))
     finite = np.flatnonzero(np.isfinite(estimated.frames).all(axis=(1, 2)))
-    _, near = cKDTree(estimated.points[finite]).query(exact.points @ linear.T)
-    point = finite[near]
+    away, near = cKDTree(estimated.points[finite]).query(exact.points @ linear.T)
+    # Where nothing is found at all, the tree gives the number after the last, far away.
+    near = np.append(finite, -1)[near]
+    point = np.where(away <= _NEAR * estimated.radius[near], near, -1)
     return [
         _agreement(estimated[order], exact[order], point, linear / scale, scale ** (1 - order))
         for order in exact.orders
@@ -159,12 +168,15 @@ def compare_fields(
 def _agreement(
     rows: OrderDirections, truth: OrderDirections, point: IntArray, turn: FloatArray, factor: float
 ) -> Agreement:
-    angle = np.full(len(truth), np.nan)
-    error = np.full(len(truth), np.nan)
+    """Compare one order; `point` names the estimate of each exact point, -1 if it has none."""
     value = factor * truth.eigenvalue
     largest = np.zeros(len(point))
     np.maximum.at(largest, truth.point_index, np.abs(value))
-    for i, at in enumerate(truth.point_index):
+    answered = np.flatnonzero(point[truth.point_index] >= 0)
+    angle = np.full(len(answered), np.nan)
+    error = np.full(len(answered), np.nan)
+    for row, i in enumerate(answered):
+        at = truth.point_index[i]
         part = rows.rows_of(int(point[at]))
         same = np.flatnonzero(rows.kind[part] == truth.kind[i])
         if not len(same):
@@ -172,6 +184,7 @@ def _agreement(
         # The chord keeps the digits that the cosine of a tiny angle loses.
         chord = np.linalg.norm(rows.vector[part][same] - turn @ truth.vector[i], axis=1)
         nearest = int(chord.argmin())
-        angle[i] = 2.0 * np.arcsin(min(1.0, chord[nearest] / 2.0))
-        error[i] = abs(rows.eigenvalue[part][same[nearest]] - value[i]) / largest[at]
-    return Agreement(truth.order, angle, error, int(rows.counts[point].sum()))
+        angle[row] = 2.0 * np.arcsin(min(1.0, chord[nearest] / 2.0))
+        error[row] = abs(rows.eigenvalue[part][same[nearest]] - value[i]) / largest[at]
+    met = point[point >= 0]
+    return Agreement(truth.order, angle, error, int(rows.counts[met].sum()), len(point) - len(met))

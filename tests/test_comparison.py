@@ -68,3 +68,22 @@ def test_what_is_not_there_is_counted(exact):
     minima = int((rows.kind == Kind.MINIMUM).sum())
     assert np.isnan(found[0].angle).sum() == minima
     assert f"{minima} not found" in found[0].in_words()
+
+
+def test_points_without_an_estimate_are_left_out_and_counted(exact):
+    for away, apart in ((0.9e-3, 0), (1.1e-3, 1)):
+        places = exact.points.copy()
+        places[1] += (0.0, 0.0, away)
+        for agreement in compare_fields(exact, replace(exact, points=places)):
+            rows = exact[agreement.order]
+            kept = len(rows) - apart * int(rows.counts[1])
+            assert (agreement.apart, len(agreement.angle)) == (apart, kept)
+            assert agreement.estimated == kept
+            np.testing.assert_allclose(agreement.angle, 0.0, atol=1e-15)
+
+
+def test_a_field_without_answers_has_nothing_to_compare(exact):
+    blind = replace(exact, frames=np.full_like(exact.frames, np.nan))
+    for agreement in compare_fields(blind, exact):
+        assert agreement.apart == len(exact)
+        assert agreement.in_words() == f"Order {agreement.order}: nothing to compare"
