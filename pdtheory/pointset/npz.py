@@ -123,10 +123,13 @@ def read_array(path: str | os.PathLike[str], name: str) -> npt.NDArray[Any]:
 def _opened(source: Path) -> Iterator[Any]:
     """Open an NPZ file, and say of everything that goes wrong with it what it means."""
     try:
-        loaded = np.load(source, allow_pickle=False)
-        if not isinstance(loaded, np.lib.npyio.NpzFile):
-            raise FileFormatError(f"{source} is not a direction field of pdtheory.")
-        with loaded as data:
+        with source.open("rb") as stream:
+            if not zipfile.is_zipfile(stream):
+                raise FileFormatError(
+                    f"{source} is not a direction field of pdtheory, or it is damaged; give an "
+                    ".npz file that pdtheory wrote."
+                )
+        with np.load(source, allow_pickle=False) as data:
             yield data
     except (FileFormatError, MemoryError):
         raise

@@ -4,6 +4,7 @@ import json
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 import pytest
 from typer.testing import Result
 
@@ -52,8 +53,22 @@ def test_bad_input_is_one_sentence(refused: Refused, npz: Path, tmp_path: Path) 
     assert "no such file" in refused("point", tmp_path / "absent.npz", 0)
     assert ".jpg is not known" in refused("point", npz, 0, "--plot", tmp_path / "a.jpg")
     assert "does not exist" in refused("point", npz, 0, "--plot", tmp_path / "absent" / "a.png")
-    (tmp_path / "text.npz").write_text("no field")
-    assert "not a direction field" in refused("point", tmp_path / "text.npz", 0)
+    for name in ("text.npz", "text.obj", "empty.npz", "short.npz", "array.npz", "pickle.bin"):
+        path = tmp_path / name
+        if name.startswith("text"):
+            path.write_text("no field")
+        elif name == "empty.npz":
+            path.touch()
+        elif name == "short.npz":
+            path.write_bytes(npz.read_bytes()[:3000])
+        else:
+            with path.open("wb") as stream:
+                np.save(stream, np.array([{}] if name == "pickle.bin" else [1.0]))
+        message = refused("point", path, 0)
+        assert message.endswith(
+            f"{name} is not a direction field of pdtheory, or it is damaged; give an .npz file "
+            "that pdtheory wrote."
+        )
     (tmp_path / "field.csv").write_text("point,x,y,z")
     assert "give the .npz file" in refused("point", tmp_path / "field.csv", 0)
     picture = tmp_path / "field.svg"
