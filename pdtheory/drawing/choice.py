@@ -92,7 +92,9 @@ def check_choice(
         ("largest_uncertainty", largest_uncertainty),
     ):
         if not value >= 0.0:
-            raise InputError(f"{name} is {value}; give a number of at least 0.")
+            raise InputError(
+                f"the {name.replace('_', ' ')} is {value}; give a number of at least 0."
+            )
     return Choice(wanted, kind, int(strokes), least_strength, largest_uncertainty)
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from pdtheory.errors import InputError
 from pdtheory.pointset.cloud import FloatArray, PointCloud
 from pdtheory.pointset.field import DirectionField
+from pdtheory.pointset.trees import kd_tree
 
 #: Rows right, back, up of the stage for each axis that may point up. The front is -y where z is up,
 #: as in Blender, and +z where y is up, as in most scans.
@@ -102,11 +103,14 @@ def natural_view(
     Raises
     ------
     InputError
-        If the surface has fewer than three finite points, or what is given is no :class:`View`.
+        If the surface has fewer than three finite points or lies elsewhere than the field, so that
+        no picture shows both, or what is given is no :class:`View`.
     """
     points = surface_points(field, cloud)
     if len(points) < 3:
         raise InputError("the surface has fewer than three finite points; nothing to draw.")
+    if cloud is not None:
+        _refuse_apart(field, cloud)
     mean = np.nan_to_num(field.frames[:, 2]).mean(axis=0) if len(field) else np.zeros(3)
     graph = float(np.linalg.norm(mean)) > _ONE_SIDED
     extent = points.max(axis=0) - points.min(axis=0)
@@ -125,3 +129,29 @@ def natural_view(
         if graph and float(view.axes()[2] @ mean) < -_ONE_SIDED:
             elevation = -elevation
     return replace(view, elevation=elevation)
+
+
+def _refuse_apart(field: DirectionField, cloud: PointCloud) -> None:
+    """Refuse a surface that is nowhere within a neighbourhood of the field."""
+    places = field.points[field.answered]
+    if not len(places):
+        return
+    if cloud.faces is None or not len(cloud.faces):
+        middles, reach = surface_points(field, cloud), 0.0
+    else:
+        corners = cloud.points[cloud.faces]
+        corners = corners[np.isfinite(corners).all(axis=(1, 2))]
+        middles = corners.mean(axis=1)
+        reach = float(np.linalg.norm(corners - middles[:, None], axis=2).max())
+    # No triangle is nearer than its middle less its size.
+    within = float(field.radius[field.answered].max()) + reach
+    tree = kd_tree(middles)
+    if np.isfinite(tree.query(places, distance_upper_bound=within)[0]).any():
+        return
+    apart = tree.query(places[:: max(1, len(places) // 1000)])[0].min() - reach
+    here, there = (np.linalg.norm(np.ptp(x, axis=0)) for x in (places, middles))
+    raise InputError(
+        "the surface lies elsewhere than the points of the field: they are "
+        f"{apart:.4g} apart (the field is {here:.4g} across, the surface {there:.4g}); give "
+        "the surface that the directions were computed on."
+    )

@@ -125,7 +125,7 @@ def test_size_and_place_do_not_matter(tmp_path, torus_field, factor):
         ({"size": (8, 72)}, "8 x 72"),
         ({"up": "w"}, "'w'; give x, y or z"),
         ({"elevation": -100.0}, "elevation is -100"),
-        ({"least_strength": -1.0}, "least_strength is -1"),
+        ({"least_strength": -1.0}, "least strength is -1"),
         ({"largest_uncertainty": float("nan")}, "uncertainty is nan"),
     ],
 )

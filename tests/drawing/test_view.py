@@ -7,7 +7,7 @@ import pytest
 
 from pdtheory.drawing.view import View, natural_view
 from pdtheory.errors import InputError
-from pdtheory.pointset import estimate_directions
+from pdtheory.pointset import PointCloud, estimate_directions
 
 
 @pytest.fixture(scope="module")
@@ -33,3 +33,25 @@ def test_a_graph_is_seen_from_the_side_of_its_normals(graph, axis, side):
 def test_an_elevation_out_of_range_is_refused(elevation):
     with pytest.raises(InputError, match="give -90 to 90 degrees"):
         View(elevation=elevation)
+
+
+@pytest.mark.parametrize("meshed", [True, False])
+def test_a_surface_that_lies_elsewhere_is_refused(graph, meshed):
+    field = estimate_directions(graph, radius=0.3, degree=3, orders=(2,))
+    corners = np.array([[-1.0, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])
+    faces = np.array([[0, 1, 2], [0, 2, 3]])
+
+    def surface(scale, shift):
+        if meshed:
+            return PointCloud(scale * corners + shift, faces=faces)
+        return PointCloud(scale * graph + shift)
+
+    # Two triangles that no vertex of the field is near to are still its surface.
+    for scale, shift in ((1.0, 0.0), (1.0, [1.0, 0, 0]), (1.0, [0, 0, 0.2]), (0.1, 0.0)):
+        natural_view(field, surface(scale, shift))
+    for scale, shift, words in (
+        (1.0, [30.0, 0, 0], r"they are 2\d(\.\d+)? apart \(the field is 2\.8\d* across"),
+        (1e-3, [0, 0, 5.0], r"they are 4\.\d+ apart .* the surface 0\.00"),
+    ):
+        with pytest.raises(InputError, match=words):
+            natural_view(field, surface(scale, shift))
