@@ -245,14 +245,14 @@ def _torus_jets() -> list[SurfaceJet]:
 def _estimate(console: Console, cloud: PointCloud, quiet: bool) -> DirectionField:
     from pdtheory.cli.estimate import summary_table
     from pdtheory.pointset import estimate_directions
-    from pdtheory.pointset.summary import status_sentences
+    from pdtheory.pointset.summary import order_summaries, status_sentences
 
     console.print(f"\n[bold]3. On {cloud.name}, {len(cloud):,} points[/bold]")
     with progress_bar("Estimating", quiet=quiet) as report:
         field = estimate_directions(
             cloud, neighbours=NEIGHBOURS, degree=DEGREE, orders=ORDERS, progress=report
         )
-    console.print(summary_table(field))
+    console.print(summary_table(len(field), order_summaries(field)))
     for sentence in status_sentences(field.status):
         console.print(f"  {sentence}")
     return field

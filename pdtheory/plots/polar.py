@@ -37,6 +37,9 @@ _INNER_RIM: Final = 1.66
 _WRITING: Final = 2.2
 _EDGE: Final = 2.6
 
+#: A term without directions is constant if it changes by no more than this part of itself.
+_FLAT: Final = 1e-9
+
 #: What names inside an SVG are made from. matplotlib takes it from the settings of the whole
 #: process only; they are put back once the file is written.
 _SVG: Final[dict[str, Any]] = {"svg.hashsalt": "pdtheory"}
@@ -57,15 +60,19 @@ class PolarTerm:
     order : int
         The order k.
     phi : (F,) array_like of complex
-        phi_{k,n} for n = k mod 2, ..., k, ascending. Multiply by R^(k-1) to compare orders.
+        phi_{k,n} for n = k mod 2, ..., k, ascending.
     directions : sequence of (float, Kind, float)
         Angle, kind and standard deviation of the angle of each direction, in radians; NaN where the
         deviation is not known.
+    quantity : str
+        What the plot shows the modulus of: ``|g|``, or ``strength`` where phi_{k,n} was multiplied
+        by R^(k-1) so that orders can be compared.
     """
 
     order: int
     phi: npt.ArrayLike
     directions: Sequence[tuple[float, Kind, float]] = ()
+    quantity: str = "|g|"
 
     @classmethod
     def of_face(cls, face: Face) -> PolarTerm:
@@ -99,7 +106,7 @@ def polar_figure(terms: Sequence[PolarTerm], *, title: str = "", figure: Any | N
 
     The dashed circle is g_k = 0: maxima bulge out, minima go in. A thick ray ends in a maximum, a
     thin one in a minimum, a dotted one in an inflection. The arc outside is the angle with its
-    standard deviation to both sides. The largest |g_k| stands above each panel.
+    standard deviation to both sides. The largest |g_k|, or strength, stands above each panel.
 
     Parameters
     ----------
@@ -234,7 +241,9 @@ def _panel(axes: Any, term: PolarTerm) -> None:
     axes.plot(theta, radius, color=colour, linewidth=1.3)
     for angle, kind, deviation in term.directions:
         _ray(axes, colour, angle, 1.0 + scale * float(term.values(angle)), kind, deviation)
-    text = f"largest |g| {largest:.3g}" if term.directions or largest == 0.0 else "isotropic"
+    text = f"largest {term.quantity} {largest:.3g}"
+    if not term.directions and float(np.ptp(values)) <= _FLAT * largest:
+        text = "every direction"
     place = {"transform": axes.transAxes, "ha": "center", "va": "bottom"}
     axes.text(0.5, 1.06, f"order {term.order}", color=colour, weight="bold", fontsize=9.0, **place)
     axes.text(0.5, 0.99, text, fontsize=7.0, color="0.35", **place)

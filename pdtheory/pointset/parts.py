@@ -46,6 +46,25 @@ def write_part(folder: Path, number: int, field: DirectionField, where: IntArray
     save_npz(field, part_path(folder, number), query=where)
 
 
+def holds_run(folder: Path) -> bool:
+    """Return whether a folder holds a run, finished or not."""
+    return (folder / _PLAN).exists()
+
+
+def check_parent(folder: Path) -> None:
+    """Refuse a folder that cannot be made because there is no folder to hold it.
+
+    Raises
+    ------
+    FileAccessError
+        If so.
+    """
+    if not folder.parent.is_dir():
+        raise FileAccessError(
+            f"cannot create {folder}: the folder {folder.parent} does not exist; create it first."
+        )
+
+
 def open_folder(folder: Path, plan: dict[str, Any], resume: bool) -> None:
     """Create the folder with its plan, or check that it belongs to the same run.
 
@@ -56,19 +75,23 @@ def open_folder(folder: Path, plan: dict[str, Any], resume: bool) -> None:
     FileAccessError
         If it cannot be made.
     """
+    check_parent(folder)
     try:
         folder.mkdir(exist_ok=True)
     except OSError as error:
-        raise FileAccessError(f"cannot create {folder}: {error.strerror}.") from error
+        raise FileAccessError(
+            f"cannot create {folder}: {error.strerror}; choose another place."
+        ) from error
     plan = {"schema": SCHEMA} | plan
-    if not (folder / _PLAN).exists():
+    if not holds_run(folder):
         with atomic_path(folder / _PLAN) as temporary:
             temporary.write_text(json.dumps(plan, indent=1) + "\n", encoding="utf-8")
         return
     old = read_plan(folder)
     if not resume:
         raise InputError(
-            f"{folder} holds a run already; go on with it (resume), or give another folder."
+            f"{folder} holds a run already; resume it (--resume on the command line), or give "
+            "another folder."
         )
     if old != plan:
         changed = ", ".join(key for key in plan if old.get(key) != plan[key])
@@ -148,6 +171,35 @@ def load_column(folder: str | os.PathLike[str], name: str) -> npt.NDArray[Any]:
     where = np.concatenate([read_array(path, "query") for path in paths])
     values = np.concatenate([read_array(path, name) for path in paths])
     return values[np.argsort(where)]
+
+
+def load_rows(
+    folder: str | os.PathLike[str], order: int, name: str, share: float = 1.0
+) -> npt.NDArray[Any]:
+    """Return one array of the directions of an order, such as ``strength``, of a finished run.
+
+    Parameters
+    ----------
+    folder
+        The folder of the run.
+    order
+        The order.
+    name
+        The array.
+    share
+        Part of the directions to take, drawn at random; all from 1 upwards.
+
+    Raises
+    ------
+    FileAccessError, FileFormatError
+        As for :func:`load_parts`, or if there is no such array.
+    """
+    draw = np.random.default_rng(0)
+    chosen = []
+    for path in _finished(folder):
+        rows = read_array(path, f"order{order}_{name}")
+        chosen.append(rows[draw.random(len(rows)) < share])
+    return np.concatenate(chosen)
 
 
 def load_points(
@@ -237,6 +289,6 @@ def _finished(folder: str | os.PathLike[str]) -> list[Path]:
     if missing:
         raise FileFormatError(
             f"{place} is unfinished: {missing[0]} is missing ({len(missing)} of {len(paths)} "
-            "parts); run again with resume."
+            "parts); resume the run (--resume on the command line)."
         )
     return paths

@@ -6,22 +6,26 @@ import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from html import escape
-from math import degrees, isfinite
+from math import degrees, factorial, inf, isfinite
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
 from pdtheory.conventions import Kind, Status, frequencies
 from pdtheory.errors import InputError
 from pdtheory.pointset.cloud import FloatArray
 from pdtheory.pointset.summary import coloured_order
-from pdtheory.pointset.words import status_words, with_error
+from pdtheory.pointset.words import angle_with_error, coordinate, status_words, with_error
 
 if TYPE_CHECKING:
     from pdtheory.plots.polar import PolarTerm
     from pdtheory.pointset.field import DirectionField
 
 _HEADINGS = ("order", "kind", "angle (degrees)", "lambda", "strength")
+
+#: A constant is known if it is so many times larger than what rounding left beside it.
+_ABOVE_ROUNDING = 1e4
 
 
 class Direction(NamedTuple):
@@ -113,6 +117,8 @@ class PointDirections:
         return f"<PointDirections: point {self.index}, {counts or 'no directions'}>"
 
     def __str__(self) -> str:
+        if self.status.unanswered:
+            return "\n".join(self._heading())
         rows = [_HEADINGS, *self._rows()]
         widths = [max(len(row[i]) for row in rows) for i in range(len(_HEADINGS))]
         lines = [
@@ -184,9 +190,9 @@ class PointDirections:
         return [
             PolarTerm(
                 order,
-                np.array([self.phi[order, n] for n in frequencies(order)])
-                * self.radius ** (order - 1),
+                self._row(order) * self.radius ** (order - 1),
                 [(row.angle, row.kind, row.angle_std) for row in rows],
+                "strength",
             )
             for order, rows in self.directions.items()
             if order <= self.degree
@@ -225,13 +231,25 @@ class PointDirections:
             ],
         }
 
+    def _row(self, order: int) -> npt.NDArray[np.complex128]:
+        """Return phi_{k,n} of one order, without the rounding where every direction is one."""
+        row = np.array([self.phi[order, n] for n in frequencies(order)])
+        if order in self.isotropic:
+            turning = row[1:] if order % 2 == 0 else row
+            # On a plane the constant is nothing else either.
+            if abs(row[0]) < _ABOVE_ROUNDING * np.abs(turning).sum():
+                row[0] = 0.0
+            turning[:] = 0.0
+        return row
+
     def _listed(self) -> list[tuple[int, tuple[Direction, ...]]]:
         return [(order, rows) for order, rows in self.directions.items() if rows]
 
     def _heading(self) -> list[str]:
-        place = ", ".join(f"{x:.6g}" for x in self.position)
+        place = ", ".join(coordinate(x, self.radius) for x in self.position.tolist())
         normal = ", ".join(f"{x:.4g}" for x in self.frame[2])
-        around = f"{self.neighbours} neighbours within R = {self.radius:.6g}"
+        where = f"within R = {self.radius:.6g}" if self.radius else "at the same place"
+        around = f"{self.neighbours} neighbour{'s' * (self.neighbours != 1)} {where}"
         lines = [f"point {self.index} at ({place}), {around}"]
         if not self.status.unanswered:
             lines.append(
@@ -247,19 +265,28 @@ class PointDirections:
         for order, directions in self.directions.items():
             if order in self.isotropic:
                 rows.append((str(order), "all", "every direction", "", ""))
-            elif not directions and not self.status.unanswered:
+            elif not directions:
                 rows.append((str(order), "none", f"above degree {self.degree}", "", ""))
             for row in directions:
                 rows.append(
                     (
                         str(order),
                         row.kind.label,
-                        with_error(degrees(row.angle), degrees(row.angle_std)),
-                        with_error(row.eigenvalue, row.eigenvalue_std),
+                        angle_with_error(row.angle, row.angle_std),
+                        with_error(row.eigenvalue, row.eigenvalue_std, limit=self._limit(row)),
                         f"{row.strength:.3g}",
                     )
                 )
         return rows
+
+    def _limit(self, row: Direction) -> float:
+        """Return the deviation of an eigenvalue beyond which it says nothing.
+
+        Where it leaves no digit, and the term may leave the neighbourhood: at the distance R its
+        height is R times the strength.
+        """
+        height = row.eigenvalue_std / factorial(row.order) * self.radius ** (row.order - 1)
+        return 10.0 * abs(row.eigenvalue) if height > 1.0 else inf
 
     def _inline_plot(self) -> str:
         """Return the polar plot as SVG, or nothing where it cannot be drawn."""

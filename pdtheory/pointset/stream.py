@@ -79,8 +79,9 @@ def estimate_to_disk(
     missing = [i for i in range(len(blocks)) if not part_path(place, i).exists()]
     before = 1.0 - len(missing) / max(len(blocks), 1)
     if run.progress is not None:
-        run.progress(before, PREPARING)
-    run.engine.warm_up()
+        run.progress(before, PREPARING if missing else "every part is there")
+    if missing:
+        run.engine.warm_up()
 
     def report(fraction: float, text: str) -> None:
         if run.progress is not None:

@@ -2,18 +2,27 @@
 
 from __future__ import annotations
 
+import os
 from html import escape
-from typing import NamedTuple
+from math import isfinite
+from typing import Any, NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
 from pdtheory.conventions import UNANSWERED, Status, order_colour
 from pdtheory.pointset.cloud import FloatArray, IntArray
 from pdtheory.pointset.field import DirectionField
-from pdtheory.pointset.words import STATUS_WORDS
+from pdtheory.pointset.parts import load_rows, read_plan
+from pdtheory.pointset.words import LARGEST_ANGLE_ERROR, STATUS_WORDS, UNDETERMINED
 
 #: Flags that a person should know of; the others are no defect or said elsewhere.
 _REPORTED = tuple(flag for flag in STATUS_WORDS if flag not in (Status.REFINED, Status.UNORIENTED))
+
+#: What stands above the cells of a summary.
+HEADINGS = ("order", "maxima", "minima", "median strength", "median std (degrees)")
+#: Points that a median needs.
+_ENOUGH = 200_000
 
 
 class OrderSummary(NamedTuple):
@@ -37,19 +46,68 @@ class OrderSummary(NamedTuple):
     strength: float
     angle_std: float
 
+    @property
+    def undetermined(self) -> bool:
+        """Whether the angles have errors that say nothing about half of them."""
+        return self.angle_std > LARGEST_ANGLE_ERROR
+
+    @property
+    def cells(self) -> tuple[str, str, str, str, str]:
+        """All in words, for the row of a table."""
+        strength, angle_std = (
+            f"{value:.3g}" if isfinite(value) else "-" for value in (self.strength, self.angle_std)
+        )
+        return (
+            str(self.order),
+            f"{self.maxima:,}",
+            f"{self.minima:,}",
+            strength,
+            UNDETERMINED if self.undetermined else angle_std,
+        )
+
 
 def order_summaries(field: DirectionField) -> list[OrderSummary]:
     """Return the summary of every order, ascending."""
     return [
-        OrderSummary(
-            order,
-            int((rows.kind == 1).sum()),
-            int((rows.kind == -1).sum()),
-            _median(rows.strength),
-            _median(np.degrees(rows.angle_std)),
-        )
+        _summary(order, rows.kind, rows.strength, rows.angle_std)
         for order, rows in ((order, field[order]) for order in field.orders)
     ]
+
+
+def run_summaries(folder: str | os.PathLike[str]) -> list[OrderSummary]:
+    """Return the summary of every order of a finished run in a folder, ascending.
+
+    The medians are those of the directions of 200,000 points, drawn at random, where there are
+    more: they need not all be in memory.
+
+    Raises
+    ------
+    FileAccessError, FileFormatError
+        As for :func:`pdtheory.pointset.load_parts`.
+    """
+    plan = read_plan(folder)
+    share = _ENOUGH / max(1, int(plan["queries"]))
+    return [
+        _summary(
+            order,
+            load_rows(folder, order, "kind"),
+            load_rows(folder, order, "strength", share),
+            load_rows(folder, order, "angle_std", share),
+        )
+        for order in plan["orders"]
+    ]
+
+
+def _summary(
+    order: int, kind: npt.NDArray[Any], strength: FloatArray, angle_std: FloatArray
+) -> OrderSummary:
+    return OrderSummary(
+        order,
+        int((kind == 1).sum()),
+        int((kind == -1).sum()),
+        _median(strength),
+        _median(np.degrees(angle_std)),
+    )
 
 
 def status_sentences(status: IntArray) -> list[str]:
@@ -67,11 +125,11 @@ def status_sentences(status: IntArray) -> list[str]:
 
 def field_html(field: DirectionField) -> str:
     """Return a field as a small HTML table, for notebooks."""
-    headings = ("order", "maxima", "minima", "median strength", "median std (degrees)")
-    head = "".join(f"<th>{heading}</th>" for heading in headings)
+    head = "".join(f"<th>{heading}</th>" for heading in HEADINGS)
     rows = "".join(
-        f"<tr><td>{coloured_order(row.order)}</td><td>{row.maxima:,}</td><td>{row.minima:,}</td>"
-        f"<td>{row.strength:.3g}</td><td>{row.angle_std:.3g}</td></tr>"
+        f"<tr><td>{coloured_order(row.order)}</td>"
+        + "".join(f"<td>{cell}</td>" for cell in row.cells[1:])
+        + "</tr>"
         for row in order_summaries(field)
     )
     notes = escape(" ".join(status_sentences(field.status)))

@@ -91,8 +91,16 @@ def test_inflections_and_isotropic_orders_are_drawn():
     sphere = PolarTerm(2, [-0.5, 0.0])
     figure = polar_figure([sine_cubed, flat, sphere])
     assert any(item.get_marker() == "s" for item in figure.axes[0].lines)
-    assert any(text.get_text() == "isotropic" for text in figure.axes[2].texts)
-    assert any("largest |g| 0" in text.get_text() for text in figure.axes[1].texts)
+    for axes in figure.axes[1:]:
+        assert any(text.get_text() == "every direction" for text in axes.texts)
+        assert not any("largest" in text.get_text() for text in axes.texts)
+
+
+def test_what_is_largest_is_named():
+    plain, scaled = MONKEY, PolarTerm(3, [0.0, 0.5], (), "strength")
+    for term, words in ((plain, "largest |g| 1"), (scaled, "largest strength 1")):
+        (axes,) = polar_figure([term]).axes
+        assert any(text.get_text() == words for text in axes.texts)
 
 
 def test_panels_do_not_overlap():

@@ -6,8 +6,8 @@ import doctest
 import importlib
 import json
 import sys
-from dataclasses import fields
-from math import degrees
+from dataclasses import fields, replace
+from math import degrees, factorial, radians
 
 import numpy as np
 import pytest
@@ -17,7 +17,8 @@ from pdtheory.conventions import ORDER_COLOURS, Status
 from pdtheory.errors import InputError, MissingDependencyError
 from pdtheory.pointset import DirectionField, estimate_directions
 from pdtheory.pointset.directions import ROW_ARRAYS, Ragged
-from pdtheory.pointset.words import STATUS_WORDS, status_words, with_error
+from pdtheory.pointset.summary import order_summaries
+from pdtheory.pointset.words import STATUS_WORDS, angle_with_error, status_words, with_error
 from tests.pointset.surfaces import torus
 
 
@@ -163,7 +164,9 @@ def test_the_table_of_a_point(field):
 
 def test_a_point_without_an_answer_says_why(field):
     point = field.at(1500)
-    assert "no answer: the point has too few neighbours; enlarge the radius" in str(point)
+    assert "no answer: the point has too few distinct neighbours (enlarge" in str(point)
+    assert "1 neighbour within R = 0.35" in str(point)
+    assert "kind" not in str(point)
     assert "<svg" not in point._repr_html_()
     with pytest.raises(InputError, match=r"nothing to plot; choose another"):
         point.plot()
@@ -182,6 +185,27 @@ def test_orders_above_a_lowered_degree_and_isotropic_orders_are_named():
     assert [term.order for term in field.at(0).polar_terms()] == [2]
 
 
+def test_where_every_direction_is_one_no_rounding_is_plotted():
+    turn = np.linalg.qr(np.random.default_rng(4).normal(size=(3, 3)))[0]
+    sphere = np.random.default_rng(1).normal(size=(2000, 3))
+    sphere /= np.linalg.norm(sphere, axis=1, keepdims=True)
+    for points, constant in ((sphere * [1.0, 1.0, 0.0] @ turn, 0.0), (sphere @ turn, 0.5)):
+        field = estimate_directions(points, radius=0.4, degree=10, orders=(2, 3))
+        both = np.flatnonzero(field[2].isotropic & field[3].isotropic)
+        if constant:
+            # No polynomial is a sphere; say that this one is.
+            index = 0
+            point = replace(field.at(0), isotropic=(2, 3))
+        else:
+            index = int(both[0])
+            point = field.at(index)
+        two, three = point.polar_terms()
+        assert abs(two.phi[0]) == pytest.approx(constant * 0.4, abs=1e-3)
+        assert two.phi[1] == 0.0
+        assert not three.phi.any()
+        assert two.quantity == "strength"
+
+
 def test_html_has_the_table_and_the_plot(field):
     html = field.at(11)._repr_html_()
     assert html.count("<svg") == 1
@@ -189,7 +213,7 @@ def test_html_has_the_table_and_the_plot(field):
     whole = field._repr_html_()
     assert whole.count("<tr>") == 1 + len(field.orders)
     assert "1,500 of 1,501 points answered." in whole
-    assert "1 point has too few neighbours" in whole
+    assert "1 point has too few distinct neighbours" in whole
 
 
 def test_html_without_matplotlib_is_the_table_alone(field, monkeypatch):
@@ -270,10 +294,76 @@ def test_absent_libraries_are_named(field, monkeypatch, method, library):
         (float("nan"), 1.0, "-"),
         (3.0, float("inf"), "3"),
         (0.0, 0.0, "0"),
+        (-0.2, 25.0, "0 ± 25"),
+        (-3.1e12, 8e14, "(0.0 ± 8.0)e+14"),
     ],
 )
 def test_no_digit_more_than_the_error_justifies(value, error, text):
     assert with_error(value, error) == text
+
+
+def test_deviations_that_say_nothing_are_words():
+    assert with_error(300.4, 6900.0, limit=90.0) == "300 (undetermined)"
+    assert with_error(300.4, 90.0, limit=90.0) == "300 ± 90"
+    assert angle_with_error(radians(40.12), radians(90.1)) == "40.1 (undetermined)"
+    assert angle_with_error(radians(40.12), radians(89.0)) == "40 ± 89"
+    assert angle_with_error(radians(40.12), float("nan")) == "40.12"
+
+
+def test_numbers_with_little_room():
+    assert with_error(90.0, 8.5e-8, places=1) == "90.0 ± 8.5e-08"
+    assert with_error(1.2e-7, 8.5e-8, places=1) == "0.0 ± 8.5e-08"
+    assert with_error(12.3456, 0.0237, places=1) == "12.3 ± 0.024"
+    assert with_error(12.3456, 2.37, places=1) == "12.3 ± 2.4"
+    assert with_error(123456789.0, 23.0, places=1) == "123456789 ± 23"
+    assert angle_with_error(radians(40.12), radians(850), places=1) == "40.1 (undetermined)"
+
+
+def test_undetermined_angles_and_eigenvalues_are_named(field):
+    point = field.at(11)
+    # The height of the term at R is R times the strength: an error of 2 R there.
+    unit = 2.0 * factorial(3) / point.radius**2
+    rows = tuple(
+        row._replace(angle_std=3.0, eigenvalue=value, eigenvalue_std=unit)
+        for row, value in zip(point[3], (0.05 * unit, 0.2 * unit), strict=False)
+    )
+    lost, rough = replace(point, directions={3: rows}).__str__().splitlines()[-2:]
+    assert lost.count("(undetermined)") == 2
+    assert rough.count("(undetermined)") == 1
+    assert " ± " in rough
+    small = tuple(row._replace(eigenvalue=0.0, eigenvalue_std=0.4 * unit) for row in rows)
+    assert "0 ± " in str(replace(point, directions={3: small}))
+
+
+def test_the_summary_calls_angles_undetermined(field):
+    rows = field[2]
+    loose = replace(field, directions={2: replace(rows, angle_std=np.full(len(rows), 1.6))})
+    (row,) = order_summaries(loose)
+    assert row.undetermined
+    assert row.cells[-1] == "undetermined"
+    assert "<td>undetermined</td>" in loose._repr_html_()
+    (row,) = order_summaries(field.only([2]))
+    assert not row.undetermined
+    assert row.cells[-1] == f"{np.median(np.degrees(rows.angle_std)):.3g}"
+
+
+def test_survey_coordinates_keep_their_digits(field):
+    far = replace(field, points=field.points + np.array([500_000.0, 5_412_000.0, 0.0]))
+    x, y, z = field.points[11]
+    heading = str(far.at(11)).splitlines()[0]
+    # The radius is 0.35, and a thousandth of it counts.
+    assert f"({500_000 + x:.4f}".rstrip("0") in heading
+    assert f"{5_412_000 + y:.4f}".rstrip("0") in heading
+    assert f" {z:.6g})" in heading
+
+
+def test_neighbours_in_one_place_are_named():
+    points = np.repeat(np.random.default_rng(0).random((30, 3)), 20, axis=0)
+    points = np.concatenate([points, torus(300, 1.0, 0.4, 3)[0]])
+    point = estimate_directions(points, neighbours=15, degree=2, orders=(2,)).at(4)
+    assert "15 neighbours at the same place" in str(point)
+    with pytest.raises(InputError, match=r"^[^;]*; choose another point\.$"):
+        point.plot()
 
 
 def test_numbers_with_errors_read_back_within_them():

@@ -5,13 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from pdtheory.errors import Cancelled, FileFormatError, InputError
+from pdtheory.errors import Cancelled, FileAccessError, FileFormatError, InputError
 from pdtheory.pointset import (
     estimate_directions,
     estimate_to_disk,
     load_parts,
     load_points,
     stream,
+    summary,
 )
 from tests.pointset.surfaces import torus
 
@@ -122,6 +123,30 @@ def test_only_numbers_of_points_are_taken(points, tmp_path, numbers):
     estimate_to_disk(points[:900], tmp_path / "run", **HOW)
     with pytest.raises(InputError, match="list of numbers of points"):
         load_points(tmp_path / "run", numbers)
+
+
+def test_the_summary_of_a_run_is_that_of_its_field(points, tmp_path, monkeypatch):
+    estimate_to_disk(points, tmp_path / "run", **HOW)
+    field = estimate_directions(points, **HOW)
+    expected = summary.order_summaries(field)
+    assert summary.run_summaries(tmp_path / "run") == expected
+    # Of many points some are enough for the medians, and all are counted.
+    monkeypatch.setattr(summary, "_ENOUGH", 1500)
+    for some, row in zip(summary.run_summaries(tmp_path / "run"), expected, strict=True):
+        assert (some.order, some.maxima, some.minima) == (row.order, row.maxima, row.minima)
+        assert some.strength != row.strength
+        rows = field[row.order]
+        assert np.mean(rows.strength < some.strength) == pytest.approx(0.5, abs=0.03)
+        degrees = np.degrees(rows.angle_std)
+        assert np.mean(degrees < some.angle_std) == pytest.approx(0.5, abs=0.03)
+
+
+def test_a_run_needs_a_folder_around_its_own(points, tmp_path):
+    with pytest.raises(FileAccessError, match=r"no does not exist; create it first\.$"):
+        estimate_to_disk(points, tmp_path / "no" / "run", **HOW)
+    (tmp_path / "file").touch()
+    with pytest.raises(FileAccessError, match=r"cannot create .*; choose another place\.$"):
+        estimate_to_disk(points, tmp_path / "file", **HOW)
 
 
 def test_choices_go_to_disk_too(points, tmp_path):
