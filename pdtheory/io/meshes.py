@@ -164,8 +164,8 @@ def sample_mesh(cloud: PointCloud, count: int, seed: int) -> PointCloud:
         raise InputError(f"seed = {seed}; give 0 or a positive number.")
     if cloud.faces is None or not len(cloud.faces):
         raise InputError(
-            f"{cloud.name} has no faces, so its surface cannot be sampled; "
-            "leave out samples to use its points."
+            f"{cloud.name} has no faces, so its surface cannot be sampled; use its points, without "
+            "samples."
         )
     mesh = trimesh.Trimesh(cloud.points, cloud.faces, process=False)
     with np.errstate(over="ignore"):

@@ -129,8 +129,15 @@ def refuse_nothing(status: IntArray, neighbours: IntArray, engine: Engine | Sele
     InputError
         With a radius that would do.
     """
-    if len(status) and np.all(status & Status.TOO_FEW_NEIGHBOURS):
+    if not len(status) or not np.all(status & Status.TOO_FEW_NEIGHBOURS):
+        return
+    if engine.choice.neighbours is not None:
         raise InputError(
-            f"{engine.choice.text} catches at most {int(neighbours.max())} points anywhere, "
-            f"too few for a fit; {suggest_radius(engine.points, engine.settings.degree)}."
+            f"the {engine.choice.neighbours} nearest points lie all in one place, at every point; "
+            "leave out points that are repeated, or give more neighbours."
         )
+    most = int(neighbours.max())
+    raise InputError(
+        f"{engine.choice.text} catches at most {most} point{'s' * (most != 1)} anywhere, too few "
+        f"for a fit; {suggest_radius(engine.points, engine.settings.degree)}."
+    )

@@ -9,6 +9,7 @@ import numpy as np
 
 from pdtheory.errors import InputError
 from pdtheory.pointset.cloud import FloatArray
+from pdtheory.pointset.intake import FEWEST
 from pdtheory.pointset.trees import kd_tree
 
 #: Most neighbours of one point.
@@ -63,15 +64,17 @@ def choose(
     if neighbours is not None:
         if not isinstance(neighbours, (int, np.integer)) or isinstance(neighbours, bool):
             raise InputError(f"neighbours must be a whole number, not {neighbours!r}.")
-        if neighbours < 3:
-            raise InputError(f"{neighbours} neighbours are too few; give at least 8.")
+        if neighbours < FEWEST:
+            raise InputError(
+                f"{neighbours} neighbours are too few; the smallest fit needs {FEWEST}."
+            )
         if neighbours > MAX_NEIGHBOURS:
             raise InputError(
                 f"{neighbours} neighbours are too many; give at most {MAX_NEIGHBOURS}."
             )
         return Choice(None, min(int(neighbours), count))
     size = radius if radius is not None else radius_relative
-    name = "radius" if radius is not None else "radius_relative"
+    name = "the radius" if radius is not None else "the relative radius"
     if not isinstance(size, (int, float, np.integer, np.floating)) or isinstance(size, bool):
         raise InputError(f"{name} must be a number, not {size!r}.")
     if not np.isfinite(size) or size <= 0:
@@ -163,6 +166,11 @@ def _median_radii(points: FloatArray, counts: Sequence[int]) -> list[float]:
 
 def suggest_radius(points: FloatArray, degree: int) -> str:
     """Return advice in words: a radius that holds twice the coefficients at half of the points."""
-    wanted = min((degree + 1) * (degree + 2), len(points))
+    wanted = (degree + 1) * (degree + 2)
+    if len(points) < wanted:
+        return (
+            f"there are {len(points)} points in all, few for degree {degree}: give more, or a "
+            "lower degree and a larger radius"
+        )
     (radius,) = _median_radii(points, [wanted])
-    return f"a radius of {radius:.3g} holds {wanted} points at half of them"
+    return f"a radius of {radius:.3g} holds {wanted} at half of the points"

@@ -33,7 +33,7 @@ def thread_count(threads: int | None) -> int:
     if not isinstance(threads, (int, np.integer)) or isinstance(threads, bool):
         raise InputError(f"threads must be a whole number or None, not {threads!r}.")
     if threads < 1:
-        raise InputError(f"{threads} threads cannot work; give a positive number or None.")
+        raise InputError(f"threads is {threads}; give at least 1, or leave it out to use all.")
     return int(threads)
 
 

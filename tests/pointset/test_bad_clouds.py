@@ -132,6 +132,25 @@ def test_a_million_equal_points_among_others():
     assert crowded.radius[2] == 0.0
 
 
+def test_repeated_points_with_a_number_of_neighbours_are_refused():
+    points = np.repeat(np.random.default_rng(0).random((20, 3)), 12, axis=0)
+    with pytest.raises(InputError, match=r"^the 9 nearest points lie all in one place"):
+        estimate_directions(points, neighbours=9, degree=3)
+
+
+def test_too_few_points_for_the_degree_are_named():
+    cube = np.stack(np.meshgrid([0.0, 1], [0.0, 1], [0.0, 1]), axis=-1).reshape(-1, 3)
+    with pytest.raises(InputError, match=r"at most 1 point anywhere.*8 points in all, few for deg"):
+        estimate_directions(cube, radius=0.5)
+    # Where there are enough, a radius is recommended that holds them.
+    points = torus(400, 1.0, 0.4, 1)[0]
+    with pytest.raises(InputError, match=r"a radius of .* holds 132 at half of") as refused:
+        estimate_directions(points, radius=1e-3)
+    radius = float(str(refused.value).split("a radius of ")[1].split()[0])
+    counts = np.sum(np.linalg.norm(points[:, None] - points, axis=2) <= radius, axis=1)
+    assert np.median(counts) == pytest.approx(132, rel=0.03)
+
+
 @pytest.mark.parametrize("count", range(6))
 def test_almost_no_points(count):
     with pytest.raises(InputError, match=f"{count} finite points are too few"):
