@@ -2,23 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal, TypeVar
 
 import typer
 
-from pdtheory.cli.options import check_target, parse_orders, progress_bar
+from pdtheory.cli.options import check_target, parse_orders, progress_bar, refuse_given
 from pdtheory.conventions import DEFAULT_DEGREE
 from pdtheory.errors import InputError
 
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from pdtheory.pointset import DirectionField, PointCloud
+    from pdtheory.pointset import PointCloud
     from pdtheory.pointset.cloud import IntArray
     from pdtheory.pointset.options import Options
+    from pdtheory.pointset.summary import OrderSummary
 
 N = TypeVar("N")
 
@@ -34,6 +35,7 @@ class Norm(StrEnum):
 
 
 def estimate(
+    context: typer.Context,
     source: Annotated[
         Path, typer.Argument(metavar="INPUT", help="A mesh or a point cloud.", show_default=False)
     ],
@@ -97,6 +99,10 @@ def estimate(
     from pdtheory.io.write import FIELD_SUFFIXES
 
     wanted = parse_orders(orders)
+    if samples is None:
+        refuse_given(
+            context, ("seed",), "does nothing without --samples; give both, or leave it out."
+        )
     folder = _folder(output, resume)
     for target in output if folder is None else ():
         check_target(target, FIELD_SUFFIXES, source)
@@ -138,6 +144,7 @@ def estimate(
 def _folder(output: list[Path], resume: bool) -> Path | None:
     """Return the folder if the results go to one."""
     from pdtheory.io.write import FIELD_SUFFIXES
+    from pdtheory.pointset.parts import check_parent, holds_run
 
     for target in output:
         # An empty name means the current folder, and Python sees no suffix in a mere ".npz".
@@ -157,7 +164,8 @@ def _folder(output: list[Path], resume: bool) -> Path | None:
     if len(output) > 1:
         raise InputError(f"the folder {folders[0]} must be the only output; leave the others out.")
     folder = folders[0]
-    if folder.is_dir() and not (folder / "plan.json").exists():
+    check_parent(folder)
+    if folder.is_dir() and not holds_run(folder):
         # Hidden files are those of the system, or what a run that was killed was writing.
         strangers = sorted(p.name for p in folder.iterdir() if not p.name.startswith("."))
         if strangers:
@@ -209,21 +217,14 @@ def _to_files(
     with progress_bar("Reading", quiet=quiet) as report:
         options["progress"] = report
         field = estimate_directions(cloud, **options)
-        _refuse_empty(field.status, source)
+        _refuse_empty(field.status, field.degree, cloud, source, options)
     for target in output:
         write_field(field, target)
     if quiet:
         return
-    from rich.console import Console
+    from pdtheory.pointset.summary import order_summaries
 
-    from pdtheory.pointset.summary import status_sentences
-
-    console = Console()
-    console.print(summary_table(field))
-    for sentence in status_sentences(field.status):
-        console.print(sentence, highlight=False)
-    for target in output:
-        console.print(f"Wrote {target}", highlight=False, soft_wrap=True)
+    _print_summary(field.status, order_summaries(field), [f"Wrote {path}" for path in output])
 
 
 def _to_folder(
@@ -232,51 +233,66 @@ def _to_folder(
     """Estimate part by part into a folder."""
     from pdtheory.pointset import estimate_to_disk
     from pdtheory.pointset.parts import discard_run, load_column
-    from pdtheory.pointset.summary import status_sentences
+    from pdtheory.pointset.summary import run_summaries
 
     with progress_bar("Reading", quiet=quiet) as report:
         options["progress"] = report
         parts = estimate_to_disk(cloud, folder, resume=resume, **options)
         status = load_column(folder, "status")
         try:
-            _refuse_empty(status, source)
+            _refuse_empty(status, load_column(folder, "degree"), cloud, source, options)
         except InputError:
             discard_run(folder)
             raise
     if quiet:
         return
-    for sentence in status_sentences(status):
-        typer.echo(sentence)
-    typer.echo(f"Wrote {parts} parts to {folder}")
+    wrote = f"Wrote {parts} {'parts' if parts > 1 else 'part'} to {folder}"
+    _print_summary(status, run_summaries(folder), [wrote])
 
 
-def _refuse_empty(status: IntArray, source: Path) -> None:
-    """Refuse a result in which no point has an answer: nobody wants a file of NaN."""
+def _print_summary(status: IntArray, rows: list[OrderSummary], wrote: list[str]) -> None:
+    """Print what was found, what is wrong with it, and where it is."""
+    from rich.console import Console
+
+    from pdtheory.pointset.summary import status_sentences
+
+    console = Console(highlight=False)
+    console.print(summary_table(len(status), rows))
+    for sentence in (*status_sentences(status), *wrote):
+        console.print(sentence, markup=False, soft_wrap=True)
+
+
+def _refuse_empty(
+    status: IntArray, degree: IntArray, cloud: PointCloud, source: Path, options: Options
+) -> None:
+    """Refuse a result without any direction: nobody wants a file of NaN."""
     from pdtheory.conventions import UNANSWERED
     from pdtheory.pointset.summary import status_sentences
 
-    if ((status & int(UNANSWERED)) == 0).any():
-        return
-    _, *reasons = status_sentences(status)
-    raise InputError(
-        f"none of the {len(status):,} points of {source} could be answered: {' '.join(reasons)}"
-    )
+    if not ((status & int(UNANSWERED)) == 0).any():
+        _, *reasons = status_sentences(status)
+        raise InputError(
+            f"none of the {len(status):,} points of {source} could be answered: {' '.join(reasons)}"
+        )
+    best = int(degree.max())
+    if best < min(options["orders"]):
+        more = "" if cloud.faces is None else " (--samples puts some on a mesh)"
+        raise InputError(
+            f"the neighbours bear no fit of more than degree {best} at any of the {len(status):,} "
+            f"points of {source}, and so no direction of the orders asked for; enlarge the "
+            f"neighbourhood, or give more points{more}."
+        )
 
 
-def summary_table(field: DirectionField) -> Table:
+def summary_table(points: int, rows: Iterable[OrderSummary]) -> Table:
     """Return a table with the number of directions and the median strength of every order."""
-    from math import isfinite
-
     from rich.table import Table
 
-    from pdtheory.pointset.summary import order_summaries
+    from pdtheory.pointset.summary import HEADINGS
 
-    table = Table(title=f"Principal directions at {len(field):,} points")
-    for heading in ("order", "maxima", "minima", "median strength", "median std (degrees)"):
+    table = Table(title=f"Principal directions at {points:,} points")
+    for heading in HEADINGS:
         table.add_column(heading, justify="right")
-    for row in order_summaries(field):
-        medians = (
-            f"{value:.3g}" if isfinite(value) else "-" for value in (row.strength, row.angle_std)
-        )
-        table.add_row(str(row.order), f"{row.maxima:,}", f"{row.minima:,}", *medians)
+    for row in rows:
+        table.add_row(*row.cells)
     return table

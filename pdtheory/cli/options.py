@@ -29,7 +29,8 @@ LeastStrength = Annotated[
     float, typer.Option(help="Leave out weaker directions; strength is |g_k| R^(k-1).", min=0.0)
 ]
 LargestUncertainty = Annotated[
-    float, typer.Option(help="Leave out directions less certain than this, in degrees.")
+    float,
+    typer.Option(help="Leave out directions less certain than this, in degrees.", min=0.0),
 ]
 Up = Annotated[
     str | None, typer.Option(help="Axis that points up: x, y or z; by the shape if left out.")
@@ -139,6 +140,29 @@ def check_target(path: Path, suffixes: tuple[str, ...], *inputs: Path | None) ->
         )
 
 
+def refuse_given(context: typer.Context, names: tuple[str, ...], reason: str) -> None:
+    """Refuse options that would be passed over, if one of them was given.
+
+    Parameters
+    ----------
+    context
+        The call of the command.
+    names
+        The options, by the names of their parameters.
+    reason
+        What follows the option in the sentence.
+
+    Raises
+    ------
+    InputError
+        If one was given.
+    """
+    for name in names:
+        source = context.get_parameter_source(name)
+        if source is not None and source.name == "COMMANDLINE":
+            raise InputError(f"--{name.replace('_', '-')} {reason}")
+
+
 def load_drawable(path: Path) -> DirectionField:
     """Read a field to be drawn: an NPZ file, or the folder of a run, thinned if that is large.
 
@@ -189,7 +213,10 @@ def progress_bar(title: str, *, quiet: bool = False) -> Iterator[Report]:
         try:
             yield report
         except BaseException:
-            # An error speaks for itself; a bar that stopped halfway would only surround it.
+            # An error speaks for itself; a bar that stopped halfway would only surround it, and an
+            # empty line would follow where this is no terminal.
             progress.live.transient = True
+            progress.live.stop()
+            progress.disable = True
             raise
         progress.update(task, completed=1.0)

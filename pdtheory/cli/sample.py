@@ -27,6 +27,7 @@ class Along(StrEnum):
 
 
 def sample(
+    context: typer.Context,
     surface: Annotated[
         str, typer.Argument(metavar="SURFACE", help="Name of the surface; see pdtheory surfaces.")
     ],
@@ -59,11 +60,17 @@ def sample(
     Example: pdtheory sample torus -p minor=0.3 -n 50000 --noise 0.05 -o torus.ply
     """
     import synthetic_surfaces
-    from pdtheory.cli.options import check_target
+    from pdtheory.cli.options import check_target, refuse_given
     from pdtheory.io import write_cloud
     from pdtheory.io.write import CLOUD_SUFFIXES
 
     check_target(output, CLOUD_SUFFIXES)
+    if resolution is not None:
+        refuse_given(
+            context,
+            ("samples", "noise", "noise_along", "outliers", "method", "seed"),
+            "does nothing where --resolution asks for a mesh; leave one of them out.",
+        )
     shape = synthetic_surfaces.get(surface, **_parameters(parameter or []))
     if resolution is not None:
         cloud = shape.mesh(resolution)
@@ -82,7 +89,7 @@ def sample(
 
 def surfaces(
     name: Annotated[
-        str | None, typer.Argument(metavar="[NAME]", help="Tell about one surface only.")
+        str | None, typer.Argument(metavar="NAME", help="Tell about one surface only.")
     ] = None,
     thumbnails: Annotated[
         Path | None,

@@ -144,7 +144,7 @@ def test_folder_takes_another_run_after_one_that_answers_nothing(
 def test_radius_that_catches_nobody(refused: Refused, bumpy_cloud: Path, tmp_path: Path) -> None:
     target = tmp_path / "field.npz"
     message = refused("estimate", bumpy_cloud, "-o", target, "--radius", 1e-6)
-    assert "catches at most 1 points" in message
+    assert "catches at most 1 point anywhere" in message
     for radius in ("0", "-1", "nan", "inf"):
         assert "radius" in refused("estimate", bumpy_cloud, "-o", target, "--radius", radius)
 
@@ -203,8 +203,12 @@ def test_folder_holds_the_same_bits_as_a_file(
     result = cli("estimate", bumpy_cloud, "-o", folder, *options)
     assert result.exit_code == 0, result.output
     assert "600 of 600 points answered." in result.stdout
-    assert "Wrote 3 parts" in result.stdout
-    cli("estimate", bumpy_cloud, "-o", npz, *options, "-q")
+    lines = result.stdout.splitlines()
+    assert lines[-1] == f"Wrote 3 parts to {folder}"
+    alone = cli("estimate", bumpy_cloud, "-o", npz, *options)
+    # The same table and sentences.
+    assert lines[:-1] == alone.stdout.splitlines()[:-1]
+    assert "median strength" in alone.stdout
     assert fields_equal(DirectionField.load(folder), DirectionField.load(npz))
     shown = cli("point", folder, 431)
     assert shown.exit_code == 0, shown.output
@@ -272,8 +276,10 @@ def test_folder_and_resume_are_used_together(
     run = ("estimate", bumpy_cloud, "-o")
     assert "--resume goes on" in refused(*run, tmp_path / "field.npz", "--resume")
     assert "only output" in refused(*run, tmp_path / "run", "-o", tmp_path / "field.npz")
-    assert "cannot create" in refused(*run, tmp_path / "no" / "run", "--radius", 0.4)
-    assert "catches at most 1 points" in refused(*run, tmp_path / "run", "--radius", 1e-6)
+    # At once, before the input is read.
+    message = refused("estimate", tmp_path / "absent.xyz", "-o", tmp_path / "no" / "run")
+    assert f"the folder {tmp_path / 'no'} does not exist; create it first" in message
+    assert "catches at most 1 point anywhere" in refused(*run, tmp_path / "run", "--radius", 1e-6)
 
 
 def test_the_side_of_the_normals_can_be_asked_for(
@@ -359,3 +365,40 @@ def test_answers_that_cannot_be_printed(
     assert last == "pdtheory: cannot write the answer: No space left on device."
     assert "Traceback" not in done.stderr
     assert "Exception ignored" not in done.stderr
+
+
+def test_finished_run_is_resumed_without_preparing(
+    cli: Run, bumpy_cloud: Path, tmp_path: Path
+) -> None:
+    run = ("estimate", bumpy_cloud, "-o", tmp_path / "run", "--degree", 4, "--orders", 2)
+    first = cli(*run)
+    assert first.stdout.splitlines()[-1] == f"Wrote 1 part to {tmp_path / 'run'}"
+    again = cli(*run, "--resume")
+    assert again.stdout == first.stdout
+    assert "every part is there" in again.stderr
+    assert "preparing" not in again.stderr
+
+
+def test_errors_begin_at_once(cli: Run, bumpy_cloud: Path, tmp_path: Path) -> None:
+    run = ("estimate", bumpy_cloud, "-o", tmp_path / "field.npz")
+    # Refused before and after the bar has moved.
+    for options in (("--neighbours", 5), ("--radius", 1e-6)):
+        assert not any(line == "" for line in cli(*run, *options).stderr.splitlines())
+
+
+def test_a_result_without_directions_is_refused(refused: Refused, tmp_path: Path) -> None:
+    corners = np.stack(np.meshgrid([0.0, 1], [0.0, 1], [0.0, 1]), axis=-1).reshape(-1, 3)
+    cube = points_file(tmp_path, corners, "cube.xyz")
+    for target in (tmp_path / "field.npz", tmp_path / "run"):
+        message = refused("estimate", cube, "-o", target, "--neighbours", 80)
+        assert "no fit of more than degree 1 at any of the 8 points" in message
+    assert not (tmp_path / "field.npz").exists()
+    assert not list((tmp_path / "run").iterdir())
+
+
+def test_options_without_effect_are_refused(
+    refused: Refused, bumpy_cloud: Path, tmp_path: Path
+) -> None:
+    run = ("estimate", bumpy_cloud, "-o", tmp_path / "field.npz")
+    # Also where it is the default.
+    assert "--seed does nothing without --samples" in refused(*run, "--seed", 0)

@@ -19,7 +19,7 @@ from pdtheory.viewer import view_field, widget
 from synthetic_surfaces import Surface
 
 #: What a command reads from a file, shows or asks for by itself.
-OWN = {"mesh", "quiet", "source", "output", "surface", "parameter"}
+OWN = {"context", "mesh", "quiet", "source", "output", "surface", "parameter"}
 
 
 def names(function: Callable[..., Any]) -> set[str]:

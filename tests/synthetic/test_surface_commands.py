@@ -72,6 +72,12 @@ def test_thumbnails(tmp_path: Path) -> None:
         ("sample", "torus", "-o", "x.abc"),
         ("sample", "torus", "-o", "no-such-folder/x.ply"),
         ("sample", "torus", "-o", "x.stl"),
+        ("sample", "torus", "-o", "x.ply", "--resolution", "4", "-n", "20000"),
+        ("sample", "torus", "-o", "x.ply", "--resolution", "4", "--noise", "0.1"),
+        ("sample", "torus", "-o", "x.ply", "--resolution", "4", "--noise-along", "position"),
+        ("sample", "torus", "-o", "x.ply", "--resolution", "4", "--outliers", "0.1"),
+        ("sample", "torus", "-o", "x.ply", "--resolution", "4", "--method", "grid"),
+        ("sample", "torus", "-o", "x.ply", "--resolution", "4", "--seed", "1"),
         ("surfaces", "nothing"),
     ],
 )
