@@ -47,7 +47,8 @@ def build(
 @app.command()
 def install(
     package: Annotated[
-        Path | None, typer.Argument(help="The zip; the fitting one in dist if left out.")
+        Path | None,
+        typer.Argument(metavar="PACKAGE", help="The zip; the fitting one in dist if left out."),
     ] = None,
     blender: Annotated[
         Path | None, typer.Option(help="The Blender program; searched for if left out.")

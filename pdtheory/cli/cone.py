@@ -39,7 +39,10 @@ class WeightName(StrEnum):
 
 
 def cone(
-    shape: Annotated[Shape, typer.Argument(help="Which cone; 'planes' takes --rays.")],
+    shape: Annotated[
+        Shape,
+        typer.Argument(metavar="SHAPE", help="Which cone; 'planes' takes --rays."),
+    ],
     slope: Annotated[
         str | None,
         typer.Option("--slope", help="Steepness, such as 1/2; the shape's own if left out."),

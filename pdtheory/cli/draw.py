@@ -24,7 +24,10 @@ from pdtheory.cli.options import (
 
 def draw(
     field: Annotated[
-        Path, typer.Argument(help="Direction field to draw: NPZ, or the folder of a run.")
+        Path,
+        typer.Argument(
+            metavar="FIELD", help="Direction field to draw: NPZ, or the folder of a run."
+        ),
     ],
     output: Annotated[
         Path, typer.Option("--output", "-o", help="Picture (.png) or Blender file (.blend).")

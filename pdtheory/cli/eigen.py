@@ -20,7 +20,8 @@ MOST_DIGITS = 10_000
 
 def eigen(
     expression: Annotated[
-        str | None, typer.Argument(help="Formula in x and y, such as 'x**3 - 3*x*y**2'.")
+        str | None,
+        typer.Argument(metavar="FORMULA", help="Formula in x and y, such as 'x**3 - 3*x*y**2'."),
     ] = None,
     order: Annotated[
         int | None, typer.Option("--order", help="One order k; all that do not vanish if left out.")

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import errno
+import signal
 import sys
+from types import FrameType
 from typing import Annotated, Any
 
 import typer
-from typer.core import TyperGroup
+from typer.core import TyperCommand, TyperGroup
 
 from pdtheory import __version__
 from pdtheory.cli.addon import app as addon
@@ -55,6 +57,19 @@ class _Refusing(TyperGroup):
             raise typer.Exit(130) from None
 
 
+class _Command(TyperCommand):
+    """Write arguments in the usual notation: NAME, [NAME] where it can be left out, NAME... ."""
+
+    def collect_usage_pieces(self, ctx: Any) -> list[str]:
+        pieces = [self.options_metavar or ""]
+        for argument in self.get_params(ctx):
+            if argument.param_type_name == "argument":
+                name = argument.metavar or str(argument.name).upper()
+                name = name if argument.required else f"[{name}]"
+                pieces.append(name if argument.nargs == 1 else f"{name}...")
+        return pieces
+
+
 app = typer.Typer(
     cls=_Refusing,
     help="Principal directions of arbitrary order on surfaces: exact theory and computation.",
@@ -84,10 +99,14 @@ def _main(
 
 
 for command in (demo, estimate, point, draw, view, sample, surfaces, inverse, cone, verify, figure):
-    app.command(command.__name__)(command)
+    app.command(command.__name__, cls=_Command)(command)
 app.add_typer(addon, name="addon")
 # A formula may begin with a minus sign and is no option then.
-app.command("eigen", context_settings={"ignore_unknown_options": True})(eigen)
+app.command("eigen", cls=_Command, context_settings={"ignore_unknown_options": True})(eigen)
+
+
+def _end(number: int, frame: FrameType | None) -> None:
+    raise SystemExit(128 + number)
 
 
 def run() -> None:
@@ -96,6 +115,12 @@ def run() -> None:
         # A Windows console with a legacy code page must not stop at a Greek letter.
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="replace")
+    for name in ("SIGTERM", "SIGHUP"):
+        # By default these end the process at once, and leave half-written files and Blender behind.
+        # Windows has no SIGHUP; nohup has it ignored.
+        number = getattr(signal, name, None)
+        if number is not None and signal.getsignal(number) is signal.SIG_DFL:
+            signal.signal(number, _end)
     # Python writes no numbers of more than 4,300 digits; formulas are bounded where they are read.
     sys.set_int_max_str_digits(0)
     app()

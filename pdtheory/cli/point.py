@@ -16,9 +16,16 @@ from pdtheory.errors import InputError
 def point(
     field: Annotated[
         Path,
-        typer.Argument(help="Direction field (NPZ, or the folder of a run).", show_default=False),
+        typer.Argument(
+            metavar="FIELD",
+            help="Direction field (NPZ, or the folder of a run).",
+            show_default=False,
+        ),
     ],
-    index: Annotated[int, typer.Argument(help="Number of the point, from 0.", show_default=False)],
+    index: Annotated[
+        int,
+        typer.Argument(metavar="INDEX", help="Number of the point, from 0.", show_default=False),
+    ],
     plot: Annotated[
         Path | None,
         typer.Option(help="Draw g_k of every order in polar form: .png, .svg or .pdf."),
@@ -31,7 +38,7 @@ def point(
     """Print the directions at one point of FIELD with their errors, and plot them.
 
     Angles run from t1 towards t2 in degrees; lambda = k! g_k has the unit length^(1-k). What
-    follows the sign is one standard deviation.
+    follows the sign is one standard deviation. A number is undetermined where that says nothing.
 
     Example: pdtheory point field.npz 1234 --plot point.png
     """

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 def verify(
     ids: Annotated[
         list[str] | None,
-        typer.Argument(metavar="[ID]...", help="Claims to check; all of them if none is named."),
+        typer.Argument(metavar="ID", help="Claims to check; all of them if none is named."),
     ] = None,
     orders: Annotated[
         str, typer.Option(help="Orders for steps that reach only a bound, as 2:12 or 3,5,8.")

@@ -25,7 +25,9 @@ def view(
     field: Annotated[
         Path,
         typer.Argument(
-            help="Direction field to show: NPZ, or the folder of a run.", show_default=False
+            metavar="FIELD",
+            help="Direction field to show: NPZ, or the folder of a run.",
+            show_default=False,
         ),
     ],
     mesh: Annotated[
