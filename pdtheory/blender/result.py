@@ -241,6 +241,7 @@ def describe(field: DirectionField, *, loose: int = 0) -> list[str]:
     if loose:
         lines.insert(1, f"{loose:,} loose vertices left out.")
     for row in order_summaries(field):
-        found = f"strength {row.strength:.2g}, ± {row.angle_std:.2g}°"
+        angles = "angles undetermined" if row.undetermined else f"± {row.angle_std:.2g}°"
+        found = f"strength {row.strength:.2g}, {angles}"
         lines.append(f"Order {row.order}: {found if len(field[row.order]) else 'no directions'}")
     return lines

@@ -39,14 +39,7 @@ def status_words(status: Status) -> list[str]:
     return [words for flag, words in STATUS_WORDS.items() if flag & status]
 
 
-def with_error(
-    value: float,
-    error: float,
-    *,
-    digits: int = 6,
-    limit: float = inf,
-    places: int | None = None,
-) -> str:
+def with_error(value: float, error: float, *, digits: int = 6, limit: float = inf) -> str:
     """Return a number with its standard deviation, no digit more than this justifies.
 
     The deviation keeps two significant digits, and the number ends at the same place.
@@ -61,8 +54,6 @@ def with_error(
         Significant digits of a number without a deviation.
     limit
         With a larger deviation the number is called undetermined. It is not rounded away then.
-    places
-        Most digits after the point, where there is little room; no power of ten then.
 
     Examples
     --------
@@ -82,36 +73,29 @@ def with_error(
     if error > limit:
         return f"{value:.3g} ({UNDETERMINED})"
     leading = floor(log10(max(abs(value), error)))
-    power = 0 if -4 <= leading < 6 or places is not None else leading
+    power = 0 if -4 <= leading < 6 else leading
     wanted, carried = 1 - floor(log10(error)), _DIGITS - 1 - leading
-    if places is not None:
-        carried = min(carried, places)
-    end = min(wanted, carried) + power
+    places = min(wanted, carried) + power
     scale = 10.0**-power
     # Adding 0 takes the sign from a zero.
-    rounded = (round(number * scale, end) + 0.0 for number in (value, error))
-    shown = [f"{number:.{max(end, 0)}f}" for number in rounded]
+    rounded = (round(number * scale, places) + 0.0 for number in (value, error))
+    shown = [f"{number:.{max(places, 0)}f}" for number in rounded]
     if wanted > carried:
-        # The deviation is finer than the digits of a double, or than those that there is room for.
+        # The deviation is finer than the digits of a double.
         shown[1] = f"{error * scale:.2g}"
     text = " ± ".join(shown)
     return text if power == 0 else f"({text})e{power:+03d}"
 
 
-def angle_with_error(angle: float, error: float, *, places: int | None = None) -> str:
+def angle_with_error(angle: float, error: float) -> str:
     """Return an angle and its standard deviation, both in radians, in degrees and words.
-
-    Parameters
-    ----------
-    angle, error, places
-        As for :func:`with_error`.
 
     Examples
     --------
     >>> angle_with_error(0.5, 0.01), angle_with_error(0.5, 3.0)
     ('28.65 ± 0.57', '28.6 (undetermined)')
     """
-    return with_error(degrees(angle), degrees(error), limit=LARGEST_ANGLE_ERROR, places=places)
+    return with_error(degrees(angle), degrees(error), limit=LARGEST_ANGLE_ERROR)
 
 
 def coordinate(value: float, radius: float) -> str:

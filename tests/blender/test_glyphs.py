@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -205,3 +207,13 @@ def test_one_node_group_serves_all(scene, torus_field):
     )
     assert first.modifiers[0].node_group == second.modifiers[0].node_group
     assert len(bpy.data.node_groups) == 1
+
+
+def test_the_summary_says_where_angles_are_undetermined(torus_field):
+    from pdtheory.blender.result import describe
+
+    field = torus_field[1]
+    loose = replace(field[3], angle_std=np.full(len(field[3]), 1600.0))
+    *_, two, three = describe(replace(field, directions={2: field[2], 3: loose}))
+    assert two.endswith("± 0.57°")
+    assert three.endswith("angles undetermined")
