@@ -15,6 +15,8 @@ from bpy.props import (
 from pdtheory.blender.result import strokes_of
 from pdtheory.drawing.glyphs import ORDERS
 
+from .translations import CONTEXT
+
 #: The orders that can be computed in Blender.
 CHOICES = tuple(order for order in ORDERS if order <= 8)
 
@@ -30,9 +32,11 @@ class ComputeSettings:
             ("SAMPLES", "Samples", "Spread points over the surface and compute at them"),
         ),
         default="VERTICES",
+        translation_context=CONTEXT,
     )
     samples: IntProperty(
         name="Samples",
+        translation_context=CONTEXT,
         description="Number of points spread over the surface",
         min=8,
         soft_max=1_000_000,
@@ -139,6 +143,7 @@ class DirectionsResult(bpy.types.PropertyGroup):
     point: IntProperty(
         name="Vertex",
         description="Vertex whose directions are listed",
+        translation_context=CONTEXT,
         min=0,
         **_kept("pdtheory_point", 0),
     )

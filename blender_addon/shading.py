@@ -7,6 +7,7 @@ from bpy.props import EnumProperty
 from pdtheory.blender.shading import COVERED_KEY, cover_with_strength, strength_orders, uncover
 
 from .jobs import surface_object
+from .translations import CONTEXT
 
 _NONE = "NONE"
 
@@ -29,7 +30,12 @@ class ShowStrength(bpy.types.Operator):
     bl_label = "Show Strength"
     bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012
 
-    order: EnumProperty(name="Order", description="Order whose strength is shown", items=_orders)
+    order: EnumProperty(
+        name="Order",
+        description="Order whose strength is shown",
+        items=_orders,
+        translation_context=CONTEXT,
+    )
 
     @classmethod
     def poll(cls, context):
