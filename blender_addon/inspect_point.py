@@ -15,10 +15,13 @@ from pdtheory.blender.result import (
     strokes_of,
 )
 from pdtheory.blender.storage import POINTS_KEY, VERTICES_KEY
-from pdtheory.conventions import Kind, Status
+from pdtheory.conventions import Status
 from pdtheory.errors import InputError, PdtheoryError
 
 from .jobs import has_result, surface_object
+
+#: Kinds of directions in the table.
+_KINDS = {1: "max", -1: "min", 0: "infl."}
 
 
 def active_vertex(thing):
@@ -73,23 +76,38 @@ def _check_numbers(thing, strokes):
 
 
 def table(field, point):
-    """Return the rows of the table: order, kind, angle in degrees and eigenvalue."""
+    """Return the rows of the table: order, kind, angle in degrees and eigenvalue.
+
+    They are short, for a sidebar that is narrow at first.
+    """
     rows = []
     for order in field.orders:
         directions = field[order]
         if directions.isotropic[point]:
-            rows.append((str(order), "all", "every direction", ""))
+            rows.append((order, "all", "every angle", ""))
         part = directions.rows_of(point)
         for i in range(part.start, part.stop):
+            angle, off = (degrees(a[i]) for a in (directions.angle, directions.angle_std))
+            value, by = (a[i] for a in (directions.eigenvalue, directions.eigenvalue_std))
             rows.append(
                 (
-                    str(order),
-                    Kind(int(directions.kind[i])).label,
-                    f"{degrees(directions.angle[i]):.1f} ± {degrees(directions.angle_std[i]):.2g}",
-                    f"{directions.eigenvalue[i]:.4g} ± {directions.eigenvalue_std[i]:.2g}",
+                    order,
+                    _KINDS[int(directions.kind[i])],
+                    f"{angle:.1f} ± {_uncertainty(off)}",
+                    f"{_number(value, 4)} ± {_uncertainty(by)}",
                 )
             )
     return rows
+
+
+def _number(value, digits):
+    """Write a number with so many digits, its exponent without sign and zeros that say nothing."""
+    mantissa, e, exponent = f"{value:.{digits}g}".partition("e")
+    return f"{mantissa}e{int(exponent)}" if e else mantissa
+
+
+def _uncertainty(value):
+    return _number(value, 3 if value >= 1.0 else 1)
 
 
 def wavejets_row(field, point):

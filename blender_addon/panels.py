@@ -2,6 +2,8 @@
 """The tab "Directions" in the sidebar of the 3D view."""
 
 import textwrap
+from itertools import groupby
+from operator import itemgetter
 
 import bpy
 
@@ -15,17 +17,13 @@ from .inspect_point import active_point, active_vertex, table
 from .jobs import surface_object
 from .polar_plot import plots_of
 from .presets import DIRECTIONS_PT_presets
+from .translations import CONTEXT
 
 _LOOK = ("Style", "Length", "By Strength", "Width", "Taper", "Lift", "Follow Surface")
-_CHOICE = (
-    "Spacing",
-    "One Order Per Point",
-    "Maxima",
-    "Minima",
-    "Inflections",
-    "Least Strength",
-    "Largest Uncertainty",
-)
+_CHOICE = ("Spacing", "One Order Per Point", "Maxima", "Minima", "Inflections")
+
+#: Their names are too long to stand beside them in a narrow sidebar.
+_LIMITS = ("Least Strength", "Largest Uncertainty")
 
 #: Buttons of Blender that a polar plot is wide at least, where there is room for two.
 _PLOT = 11
@@ -133,6 +131,10 @@ class DIRECTIONS_PT_drawing(_DirectionsPanel, bpy.types.Panel):  # noqa: N801
             for name in names:
                 _prop(column, modifier, inputs, name)
         column = layout.column(align=True)
+        column.use_property_split = False
+        for name in _LIMITS:
+            _prop(column, modifier, inputs, name)
+        column = layout.column(align=True)
         if context.space_data.shading.type == "SOLID":
             # The dark outline of Solid shading swallows the colours of thin strokes.
             column.prop(context.space_data.shading, "show_object_outline", text="Outline in View")
@@ -141,7 +143,9 @@ class DIRECTIONS_PT_drawing(_DirectionsPanel, bpy.types.Panel):  # noqa: N801
             row = column.row(align=True)
             _prop(row, modifier, inputs, f"Order {order}")
             if material is not None:
-                row.prop(material, "principal_directions_colour", text="")
+                colour = row.row(align=True)
+                colour.ui_units_x = 2.0
+                colour.prop(material, "principal_directions_colour", text="")
 
 
 class DIRECTIONS_PT_point(_DirectionsPanel, bpy.types.Panel):  # noqa: N801
@@ -168,9 +172,11 @@ class DIRECTIONS_PT_point(_DirectionsPanel, bpy.types.Panel):  # noqa: N801
             _sentence(context, layout, str(error))
             return
         column = layout.column(align=True)
-        _cells(column, ("Order", "Kind", "Angle (°)", "Eigenvalue"), translate=True)
-        for row in table(*found):
-            _cells(column, row, translate=False)
+        _cells(column, ("Kind", "Angle (°)", "Eigenvalue"), text_ctxt=CONTEXT)
+        for order, rows in groupby(table(*found), itemgetter(0)):
+            column.label(text=f"Order {order}", text_ctxt=CONTEXT)
+            for _, *cells in rows:
+                _cells(column, cells, translate=False)
         row = layout.row(align=True)
         row.operator("principal_directions.copy_row", icon="COPYDOWN")
         row.operator("principal_directions.show_ball", text="", icon="MESH_UVSPHERE")
@@ -209,17 +215,21 @@ class DIRECTIONS_PT_polar(_DirectionsPanel, bpy.types.Panel):  # noqa: N801
         layout.operator("principal_directions.plot_point", icon="IMAGE_DATA")
 
 
-def _cells(column, texts, *, translate):
-    """Write a row of the table, narrow columns for order and kind."""
-    row = column.split(factor=0.3)
-    order_and_kind, numbers = row.split(factor=0.5), row.split(factor=0.43)
-    for place, text in zip((order_and_kind, order_and_kind, numbers, numbers), texts, strict=True):
-        place.label(text=text, translate=translate)
+def _cells(column, texts, **how):
+    """Write a row of the table: a narrow column for the kind, wider ones for the numbers."""
+    row = column.split(factor=0.16)
+    row.label(text=texts[0], **how)
+    numbers = row.split(factor=0.43)
+    for text in texts[1:]:
+        numbers.label(text=text, **how)
 
 
 def _sentence(context, layout, text):
     """Write a sentence in as many lines as it needs; a label alone would be cut off."""
-    letters = max(20, int(context.region.width / (7.0 * context.preferences.system.ui_scale)))
+    # Beside the tabs and margins, at the width of a letter on average and a little more.
+    letters = max(
+        20, int((context.region.width / context.preferences.system.ui_scale - 46.0) / 6.3)
+    )
     column = layout.column(align=True)
     for line in textwrap.wrap(text, letters):
         column.label(text=line, translate=False)
@@ -232,7 +242,7 @@ def _modifier(context):
 
 def _prop(layout, modifier, inputs, name):
     owner, path = compat.input_owner(modifier, inputs[name].identifier)
-    layout.prop(owner, path, text=name)
+    layout.prop(owner, path, text=name, text_ctxt=CONTEXT)
 
 
 register, unregister = bpy.utils.register_classes_factory(
