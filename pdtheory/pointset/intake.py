@@ -202,7 +202,7 @@ def _sides(
         return mode
     if mode == "normals":
         if normals is None:
-            raise InputError("orient='normals' needs normals; give them, or another orient.")
+            raise InputError("orient 'normals' needs normals; give them, or another orient.")
         vectors, _ = as_vectors(normals, "normals")
         if len(vectors) != len(places):
             raise InputError(
@@ -211,7 +211,7 @@ def _sides(
         return np.where(finite_rows(vectors)[:, None], vectors, 0.0)
     if mode == "winding":
         if faces is None or not len(faces):
-            raise InputError("orient='winding' needs a mesh with faces.")
+            raise InputError("orient 'winding' needs a mesh with faces.")
         vectors = winding_normals(places, faces)
         return np.where(finite_rows(vectors)[:, None], vectors, 0.0)
     if mode == "propagate":

@@ -33,7 +33,9 @@ def thread_count(threads: int | None) -> int:
     if not isinstance(threads, (int, np.integer)) or isinstance(threads, bool):
         raise InputError(f"threads must be a whole number or None, not {threads!r}.")
     if threads < 1:
-        raise InputError(f"threads is {threads}; give at least 1, or leave it out to use all.")
+        raise InputError(
+            f"threads is {threads}; give at least 1, or leave it out to use all cores."
+        )
     return int(threads)
 
 
