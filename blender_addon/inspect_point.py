@@ -17,6 +17,7 @@ from pdtheory.blender.result import (
 from pdtheory.blender.storage import POINTS_KEY, VERTICES_KEY
 from pdtheory.conventions import Status
 from pdtheory.errors import InputError, PdtheoryError
+from pdtheory.pointset.words import LARGEST_ANGLE_ERROR, UNDETERMINED
 
 from .jobs import has_result, surface_object
 
@@ -93,7 +94,9 @@ def table(field, point):
                 (
                     order,
                     _KINDS[int(directions.kind[i])],
-                    f"{angle:.1f} ± {_uncertainty(off)}",
+                    UNDETERMINED
+                    if off > LARGEST_ANGLE_ERROR
+                    else f"{angle:.1f} ± {_uncertainty(off)}",
                     f"{_number(value, 4)} ± {_uncertainty(by)}",
                 )
             )
@@ -107,7 +110,7 @@ def _number(value, digits):
 
 
 def _uncertainty(value):
-    return _number(value, 3 if value >= 1.0 else 1)
+    return _number(value, 1 if value < 1.0 else 2 if value < 100.0 else 3)
 
 
 def wavejets_row(field, point):

@@ -209,11 +209,15 @@ def test_one_node_group_serves_all(scene, torus_field):
     assert len(bpy.data.node_groups) == 1
 
 
-def test_the_summary_says_where_angles_are_undetermined(torus_field):
+def test_undetermined_angles_are_named(torus_field):
+    from blender_addon.inspect_point import table
     from pdtheory.blender.result import describe
 
     field = torus_field[1]
     loose = replace(field[3], angle_std=np.full(len(field[3]), 1600.0))
-    *_, two, three = describe(replace(field, directions={2: field[2], 3: loose}))
+    field = replace(field, directions={2: field[2], 3: loose})
+    angles = {row[0]: row[2] for row in table(field, 7)}
+    assert angles == {2: "270.0 ± 0.6", 3: "undetermined"}
+    *_, two, three = describe(field)
     assert two.endswith("± 0.57°")
     assert three.endswith("angles undetermined")
