@@ -21,6 +21,8 @@ from pdtheory.pointset.kernels.tables import SAMPLES
 #: Largest number of halvings; below that width two zeros count as a double one.
 DEPTH = 18
 _FINEST = pi / SAMPLES * 2.0**-DEPTH
+#: Intervals that are closer than this may hold one zero.
+_GAP = 3.0 * _FINEST
 #: Times what cannot be told from zero: as far as that a multiple zero reaches.
 _NEAR = 8.0
 #: Rows of a table of brackets: the angle, the ends of the interval that holds it, h rising (1) or
@@ -287,20 +289,20 @@ def bracket_angles(
                 stack[top + 2, 5] = dm
                 top += 2
                 continue
+            touches = found > begin and low - table[HIGH, found - 1] < _GAP
             if none or (not change and monotone):
-                if open_end and low - table[HIGH, found - 1] < 3.0 * _FINEST and abs(hb) <= near:
+                if touches and open_end and abs(hb) <= near:
                     table[HIGH, found - 1] = high
                 continue
-            merge = found > begin and low - table[HIGH, found - 1] < 3.0 * _FINEST
-            if merge and (not monotone or (open_end and abs(ha) <= near)):
+            if touches and (not monotone or (open_end and abs(ha) <= near)):
                 # The same multiple zero, seen from the next interval.
                 here = 0.0
                 if change:
                     here = 1.0 if negative_b else -1.0
                 start = table[LOW, found - 1]
                 if not open_end:
-                    start = max(start, low - 3.0 * _FINEST)
-                end = min(high, low + 3.0 * _FINEST) if monotone else high
+                    start = max(start, low - _GAP)
+                end = min(high, low + _GAP) if monotone else high
                 if open_end or change:
                     _widen(table, kind, found - 1, start, end, here)
                 open_end = not monotone
@@ -314,7 +316,7 @@ def bracket_angles(
             found += 1
     if multiple and found > begin + 1:
         low = table[LOW, found - 1] - np.pi
-        if table[LOW, begin] - (table[HIGH, found - 1] - np.pi) < 3.0 * _FINEST:
+        if table[LOW, begin] - (table[HIGH, found - 1] - np.pi) < _GAP:
             # A multiple zero at 0, seen from both ends; h(theta - pi) = (-1)^k h(theta).
             found -= 1
             here = -kind[found] if parity else kind[found]
