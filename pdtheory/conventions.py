@@ -47,6 +47,7 @@ class Status(IntFlag):
     ONE_SIDED = 64
     UNORIENTED = 128
     NOT_CONVERGED = 256
+    UNCERTAIN_FRAME = 512
 
     @property
     def unanswered(self) -> bool:

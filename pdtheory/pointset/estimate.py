@@ -64,7 +64,8 @@ def estimate_directions(
         hands on only if all points are queries, since that visits all of them.
     frame : {"tangent", "principal", "given"}
         The local plane: tangent to the fitted surface, the robust principal plane of the
-        neighbours, or orthogonal to the given normals.
+        neighbours, or orthogonal to the given normals. Where the fit does not tell the tangent
+        plane, the principal one takes its place, with the status ``UNCERTAIN_FRAME``.
     weight_distance : {"3d", "planar"}
         Distance that the weights depend on: in space, which depends on no plane and is the default,
         or in the local plane.
@@ -95,7 +96,7 @@ def estimate_directions(
     Notes
     -----
     The height of the fitted surface over the query itself is free: phi_{0,0} is the offset of the
-    query from the smoothed surface. In the tangent frame phi_{1,1} is zero.
+    query from the smoothed surface. In a tangent frame phi_{1,1} is zero.
 
     Degree and radius are chosen by comparing each candidate with those of less bias
     (:mod:`pdtheory.pointset.selection`), for all orders asked for together: where each order shall

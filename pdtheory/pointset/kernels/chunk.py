@@ -8,7 +8,7 @@ import numpy as np
 
 from pdtheory.conventions import Status
 from pdtheory.pointset.kernels import results
-from pdtheory.pointset.kernels.fit import FRAME_TANGENT, Fit, Settings, finish, fit_point
+from pdtheory.pointset.kernels.fit import Fit, Settings, finish, fit_point
 from pdtheory.pointset.kernels.frames import output_frame
 from pdtheory.pointset.kernels.grid import Grid, find_runs, gather, gather_listed, locate
 from pdtheory.pointset.kernels.jit import Array, IntArray, inner, kernel
@@ -126,16 +126,14 @@ def _write_covariances(
     n: int,
     fit: Fit,
     orders: IntArray,
-    settings: Settings,
     robust: Any,
     tables: Any,
     w: Any,
     out: Array,
 ) -> float:
     """Write the covariances of all orders up to the degree used; returns the noise."""
-    tangent = settings.frame == FRAME_TANGENT
-    noise = prepare_covariances(cloud, n, fit, robust, tangent, tables, w)
-    if tangent:
+    noise = prepare_covariances(cloud, n, fit, robust, tables, w)
+    if fit.tangent:
         spread_order(1, fit, w)
         for axis in range(2):
             for i in range(degree_start(fit.top, 0) + 1):
@@ -144,7 +142,7 @@ def _write_covariances(
     for order in orders:
         if order > fit.degree:
             break
-        order_covariance(order, fit, tangent, noise, w, out, entry)
+        order_covariance(order, fit, noise, w, out, entry)
         entry += (order + 1) * (order + 1)
     return noise
 
@@ -223,7 +221,6 @@ def fit_chunk(
     here = w.cells[1]
     last[0] = -(2**60)
     count = total = 0
-    tangent = settings.frame == FRAME_TANGENT
     for q in range(begin, len(where)):
         if stop[0] != 0:
             return q
@@ -268,7 +265,7 @@ def fit_chunk(
             continue
         numbers = out.numbers[slot]
         numbers[results.NEIGHBOURS] = fit.neighbours
-        numbers[results.STATUS] = finish(fit, tangent, w)
+        numbers[results.STATUS] = finish(fit, w)
         c, s = output_frame(w.frame, w.B)
         for axis in range(3):
             for i in range(3):
@@ -286,7 +283,7 @@ def fit_chunk(
                 traces.blur[q, j] = _blur(fit, orders[j], level, w)
         if settings.uncertainty:
             noise = _write_covariances(
-                cloud, n, fit, orders, settings, robust, tables, w, traces.covariance[q]
+                cloud, n, fit, orders, robust, tables, w, traces.covariance[q]
             )
             numbers[results.NOISE] = noise * radius
     return len(where)

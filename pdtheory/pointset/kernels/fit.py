@@ -16,7 +16,13 @@ from pdtheory.pointset.kernels.regression import (
     regress,
     settle,
 )
-from pdtheory.pointset.kernels.tilting import gradient, shift, tilt_matters, untilt
+from pdtheory.pointset.kernels.tilting import (
+    gradient,
+    shift,
+    slope_spread,
+    tilt_matters,
+    untilt,
+)
 from pdtheory.pointset.kernels.weighing import project, weigh
 
 #: Frames: tangent to the fitted surface, principal axes, normal to the given vectors.
@@ -27,10 +33,10 @@ PREFIT_DEGREE = 4
 MARGIN = 1.25
 #: Tilts with the full fit.
 RETILTS = 8
-#: A tilt must leave less than the first part of the slope, and no more than the second multiple of
-#: the residual.
-STEADY, WORSE = 0.5, 2.0
-#: With l1 the residual may be that of outliers, so a tenth of it decides about another tilt.
+#: Bound on the standard deviation of the slope above which it does not tell the tangent plane. The
+#: deviation itself is about 0.7 times that, and errors are carried on to first order only.
+UNSURE = 0.3
+#: With l1 the residual may be that of outliers, so a tenth of it is taken for noise.
 TRUST_L1 = 0.1
 #: Distance of the weighted centroid, as a fraction of the radius, of a one-sided neighbourhood.
 ONE_SIDED = 0.18
@@ -42,6 +48,7 @@ _ILL = int(Status.ILL_CONDITIONED)
 _REFINED = int(Status.REFINED)
 _ONE_SIDED = int(Status.ONE_SIDED)
 _UNORIENTED = int(Status.UNORIENTED)
+_UNCERTAIN = int(Status.UNCERTAIN_FRAME)
 
 
 class Settings(NamedTuple):
@@ -88,6 +95,8 @@ class Fit(NamedTuple):
         Smallest relative pivot.
     neighbours : int
         Points inside the radius.
+    tangent : bool
+        Whether the frame is to be tangent to the fitted surface.
     """
 
     status: int
@@ -98,6 +107,7 @@ class Fit(NamedTuple):
     residual: float
     pivot: float
     neighbours: int
+    tangent: bool
 
 
 @inner
@@ -144,10 +154,26 @@ def prefit(
     """Tilt the frame by the gradient of a fit of low degree."""
     cx, cy, _ = project(cloud, points, n, settings.planar, w)
     reached, _ = regress(cloud, WEIGHT, n, degree, w)
-    a, b = gradient(w.c, degree, -cx, -cy, w.powers)
+    a, b = gradient(w.c, degree, -cx, -cy, w)
     if reached >= 1 and a * a + b * b < 1.0:
         tilt(w.frame, a, b)
         face(w.frame, reference[0], reference[1], reference[2])
+
+
+@inner
+def slope_known(
+    degree: int, reached: int, n: int, noise: float, pivot: float, cx: float, cy: float, w: Any
+) -> bool:
+    """Whether a fit to n points, centred at (cx, cy), tells the gradient at the origin.
+
+    `noise` is the root mean square of the residuals, which leaves out what went into the
+    coefficients.
+    """
+    # The spread for unit noise is of the order of 1 / sqrt(pivot) at most.
+    if noise < 0.1 * UNSURE * np.sqrt(pivot):
+        return True
+    free = n - (reached + 1) * (reached + 2) // 2
+    return noise * np.sqrt(n / free) * slope_spread(degree, -cx, -cy, w) < UNSURE
 
 
 @inner
@@ -181,55 +207,53 @@ def fit_point(
     inside = int(weigh(cloud, n))
     degree = affordable_degree(inside, settings.degree)
     if degree < min(2, settings.degree):
-        return Fit(_TOO_FEW, 0, 0, 0.0, 0.0, np.nan, np.nan, inside)
+        return Fit(_TOO_FEW, 0, 0, 0.0, 0.0, np.nan, np.nan, inside, False)
     status = _LOWERED if degree < settings.degree else 0
     status |= choose_frame(cloud, n, reference, settings, w)
     if status & _DEGENERATE:
-        return Fit(status, 0, 0, 0.0, 0.0, np.nan, np.nan, inside)
+        return Fit(status, 0, 0, 0.0, 0.0, np.nan, np.nan, inside, False)
     tangent = settings.frame == FRAME_TANGENT
-    if tangent and degree > 2:
-        prefit(cloud, points, n, min(PREFIT_DEGREE, degree - 1), reference, settings, w)
+    if tangent:
+        w.kept[:] = w.frame
+        if degree > 2:
+            prefit(cloud, points, n, min(PREFIT_DEGREE, degree - 1), reference, settings, w)
     turns = RETILTS if tangent else 0
     trusted = TRUST_L1 if settings.robust else 1.0
     turn = 0
-    slope = before = np.inf
     while True:
         cx, cy, weight = project(cloud, points, n, settings.planar, w)
         reached, pivot = regress(cloud, WEIGHT, n, degree, w)
         if reached < 0:
-            return Fit(status | _DEGENERATE, 0, 0, 0.0, 0.0, np.nan, np.nan, inside)
+            return Fit(status | _DEGENERATE, 0, 0, 0.0, 0.0, np.nan, np.nan, inside, False)
         residual, refined = settle(cloud, WEIGHT, n, degree, weight, pivot, w)
+        noise = trusted * residual
         for i in range(len(w.c)):
             w.centred[i] = w.c[i]
         shift(w.c, degree, cx, cy, w.table)
-        if turn == turns:
-            break
-        last = degree_start(degree, 0)
-        size = np.sqrt(w.c[last - 2] * w.c[last - 2] + w.c[last - 1] * w.c[last - 1])
-        if turn > 0 and not (size < STEADY * slope and residual < WORSE * before):
-            # The samples do not bear this frame; back to the one before, for good.
+        if tangent and not slope_known(degree, reached, inside, noise, pivot, cx, cy, w):
+            # The principal plane is known far better, and takes the place of the tangent plane.
+            status |= _UNCERTAIN
+            tangent = False
+            turns = turn
             w.frame[:] = w.kept
-            turn = turns
             continue
-        if not tilt_matters(w.c, degree, trusted * residual, w.norms):
+        if turn == turns or not tilt_matters(w.c, degree, noise, w.norms):
             break
         turn += 1
-        w.kept[:] = w.frame
-        slope = size
-        before = residual
+        last = degree_start(degree, 0)
         tilt(w.frame, w.c[last - 2], w.c[last - 1])
         face(w.frame, reference[0], reference[1], reference[2])
     if refined:
         status |= _REFINED
     if doubtful(degree, reached, w):
         status |= _ILL
-    return Fit(status, reached, degree, cx, cy, residual, pivot, inside)
+    return Fit(status, reached, degree, cx, cy, residual, pivot, inside, tangent)
 
 
 @inner
-def finish(fit: Fit, tangent: bool, w: Any) -> int:
-    """Turn frame and jet into the tangent plane; returns the status."""
-    if tangent:
+def finish(fit: Fit, w: Any) -> int:
+    """Turn frame and jet into the tangent plane if that is wanted; returns the status."""
+    if fit.tangent:
         untilt(w.c, fit.top, w.frame, w.table, w.middle, w.slope)
         for i in range(degree_start(fit.top, fit.degree)):
             w.c[i] = 0.0

@@ -161,4 +161,6 @@ def fit_robustly(cloud: Array, n: int, fit: Fit, w: Any) -> Fit:
         w.c[i] = w.centred[i]
     residual = misfit(cloud, n, degree, weight, w)
     shift(w.c, degree, fit.cx, fit.cy, w.table)
-    return Fit(status, fit.degree, degree, fit.cx, fit.cy, residual, pivot, fit.neighbours)
+    return Fit(
+        status, fit.degree, degree, fit.cx, fit.cy, residual, pivot, fit.neighbours, fit.tangent
+    )

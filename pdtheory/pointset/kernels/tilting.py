@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from pdtheory.pointset.kernels.cholesky import solve_transposed
 from pdtheory.pointset.kernels.frames import tilt
 from pdtheory.pointset.kernels.jit import Array, inner
 from pdtheory.pointset.kernels.lanes import LANES, Lanes, Rows, emit
@@ -109,34 +110,65 @@ def shift(c: Array, degree: int, cx: float, cy: float, table: Array) -> None:
 
 
 @inner
-def gradient(c: Array, degree: int, x: float, y: float, powers: Array) -> tuple[float, float]:
-    """Return the derivatives of sum c_ab x^a y^b by x and y.
+def _fill_gradient(axis: int, degree: int, x: float, y: float, powers: Array, v: Array) -> None:
+    """Write the derivatives of the monomials x^a y^b at a point by x (axis 0) or y (axis 1).
 
     Parameters
     ----------
-    c, degree
-        The coefficients, as for `shift`.
+    degree : int
+        Largest degree; the monomials stand as the coefficients do, from index 1 on.
     x, y : float
-        Where.
+        The point.
     powers : (2, > degree) float64
         Scratch.
+    v : (> coefficient count,) float64
+        Receives the derivatives.
     """
     powers[0, 0] = 1.0
     powers[1, 0] = 1.0
     for i in range(degree):
         powers[0, i + 1] = powers[0, i] * x
         powers[1, i + 1] = powers[1, i] * y
-    by_x = 0.0
-    by_y = 0.0
     row = 1
     for d in range(degree, -1, -1):
         for b in range(d + 1):
-            if b < d:
-                by_x += c[row] * (d - b) * powers[0, d - b - 1] * powers[1, b]
-            if b > 0:
-                by_y += c[row] * b * powers[0, d - b] * powers[1, b - 1]
+            a = d - b
+            v[row] = 0.0
+            if axis == 0 and a > 0:
+                v[row] = a * powers[0, a - 1] * powers[1, b]
+            if axis == 1 and b > 0:
+                v[row] = b * powers[0, a] * powers[1, b - 1]
             row += 1
+
+
+@inner
+def gradient(c: Array, degree: int, x: float, y: float, w: Any) -> tuple[float, float]:
+    """Return the derivatives of sum c_ab x^a y^b by x and y at a point."""
+    by_x = 0.0
+    by_y = 0.0
+    _fill_gradient(0, degree, x, y, w.powers, w.v)
+    _fill_gradient(1, degree, x, y, w.powers, w.y)
+    for i in range(1, degree_start(degree, 0)):
+        by_x += c[i] * w.v[i]
+        by_y += c[i] * w.y[i]
     return by_x, by_y
+
+
+@inner
+def slope_spread(degree: int, x: float, y: float, w: Any) -> float:
+    """Bound the standard deviation of the gradient at a point for noise of 1 in the heights.
+
+    As no weight is above 1, the covariance of the coefficients is at most the inverse of the normal
+    equations, G^-1 = L^-1 L^-T.
+    """
+    count = degree_start(degree, 0)
+    total = 0.0
+    for axis in range(2):
+        _fill_gradient(axis, degree, x, y, w.powers, w.v)
+        solve_transposed(w.G, count, w.inverses, w.v, w.y)
+        for i in range(1, count + 1):
+            total += w.y[i] * w.y[i]
+    return np.sqrt(total)
 
 
 @emit

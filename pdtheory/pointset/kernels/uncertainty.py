@@ -220,9 +220,7 @@ def _noise_of_l1(cloud: Array, n: int, used: int) -> float:
 
 
 @inner
-def prepare_covariances(
-    cloud: Array, n: int, fit: Fit, robust: Any, tangent: bool, tables: Any, w: Any
-) -> float:
+def prepare_covariances(cloud: Array, n: int, fit: Fit, robust: Any, tables: Any, w: Any) -> float:
     """Set up ``w.X`` and the gradient for `order_covariance`; returns the noise of the heights.
 
     `robust` is None for l2.
@@ -255,7 +253,7 @@ def prepare_covariances(
         w.S[i, i] = 0.0
     used = _solve_rows(w.S, count, PANEL, PANEL, w.G, w.inverses, w.X)
     _fill_binomials(fit.cx, fit.cy, top, tables, w)
-    if tangent:
+    if fit.tangent:
         spread_out(w.c, top, w.table)
         for i in range(ROWS, ROWS + SIDE):
             for j in range(SIDE, 2 * SIDE):
@@ -287,18 +285,16 @@ def spread_order(order: int, fit: Fit, w: Any) -> None:
 
 
 @inner
-def order_covariance(
-    order: int, fit: Fit, tangent: bool, noise: float, w: Any, out: Array, start: int
-) -> None:
+def order_covariance(order: int, fit: Fit, noise: float, w: Any, out: Array, start: int) -> None:
     """Write the covariance of c_{k-b,b} about the origin, b = 0..k, to `out` from `start` on.
 
-    The frame is tangent to the fitted surface, so an error (a, b) of the gradient also turns it,
+    Where the frame is tangent to the fitted surface, an error (a, b) of the gradient also turns it,
     which changes the heights h by -(a d/dx + b d/dy)(h^2) / 2. The spreads of the gradient are in
     ``w.gradient``.
     """
     spread_order(order, fit, w)
     count = degree_start(fit.top, 0)
-    if tangent:
+    if fit.tangent:
         for b in range(order + 1):
             by_x = -0.5 * (order - b + 1) * w.middle[ROWS + order + 1, SIDE + b]
             by_y = -0.5 * (b + 1) * w.middle[ROWS + order + 1, SIDE + b + 1]

@@ -1,0 +1,110 @@
+"""Where a fit does not tell the tangent plane: against NumPy's own covariance, and the truth."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from pdtheory.conventions import Status
+from pdtheory.pointset import estimate_directions
+
+UP = np.array([0.0, 0.0, 1.0])
+
+
+def bound_on_slope(x, y, z, degree):
+    """Bound on the deviation of the slope at 0 of a weighted fit, by dense linear algebra."""
+    rho = x**2 + y**2 + z**2
+    inside = rho <= 1.0
+    x, y, z, w = x[inside], y[inside], z[inside], np.exp(-4.5 * rho[inside])
+    powers = [(d - b, b) for d in range(degree + 1) for b in range(d + 1)]
+    design = np.stack([x**a * y**b for a, b in powers], axis=1)
+    root = np.sqrt(w)[:, None]
+    left = (
+        root[:, 0] * z
+        - root * design @ np.linalg.lstsq(root * design, root[:, 0] * z, rcond=None)[0]
+    )
+    noise = np.sqrt(left @ left / w.sum() * len(x) / (len(x) - len(powers)))
+    inverse = np.linalg.pinv(root * design)
+    covariance = inverse @ inverse.T
+    slope = [powers.index((1, 0)), powers.index((0, 1))]
+    return noise * np.sqrt(covariance[slope, slope].sum())
+
+
+@pytest.mark.parametrize(("degree", "least", "noise"), [(3, 20, 0.2), (6, 40, 0.2), (10, 100, 0.1)])
+def test_the_flag_follows_the_uncertainty_of_the_slope(degree, least, noise):
+    rng = np.random.default_rng(degree)
+    clouds, bounds = [], []
+    for number in range(400):
+        n = int(rng.integers(least, 3 * least))
+        r, t = np.sqrt(rng.random(n)), rng.uniform(0, 2 * np.pi, n)
+        # From the middle of a disc to its edge.
+        x, y = r * np.cos(t), r * np.sin(t)
+        y = np.where(y < -rng.random(), -y, y)
+        z = noise * 10 ** rng.uniform(-2, 0) * rng.normal(size=n)
+        bounds.append(bound_on_slope(x, y, z, degree))
+        clouds.append(np.stack([x + 10.0 * number, y, z], axis=1))
+    queries = np.stack([10.0 * np.arange(400), np.zeros(400), np.zeros(400)], axis=1)
+    points = np.concatenate(clouds)
+    field = estimate_directions(
+        points, radius=1.0, degree=degree, orders=(2,), queries=queries,
+        normals=np.broadcast_to(UP, points.shape),
+    )  # fmt: skip
+    flagged = (field.status & Status.UNCERTAIN_FRAME) != 0
+    bounds = np.array(bounds)
+    # The kernel computes it in a frame that lies a little aslant.
+    sure, unsure = bounds < 0.2, bounds > 0.5
+    assert sure.sum() > 20
+    assert unsure.sum() > 20
+    assert not flagged[sure].any()
+    assert flagged[unsure].all()
+    tilt = np.degrees(np.arccos(np.clip(field.frames[:, 2, 2], -1.0, 1.0)))
+    assert tilt[~flagged].max() < 45.0
+
+
+def noisy_patch():
+    rng = np.random.default_rng(0)
+    x, y = rng.uniform(0, 6, (2, 4000))
+    z = 0.15 * (x - 3) ** 2 / 2 - 0.1 * (y - 3) ** 2 / 2 + 0.01 * rng.normal(size=len(x))
+    normals = np.stack([-0.15 * (x - 3), 0.1 * (y - 3), np.ones(len(x))], axis=1)
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    edge = np.minimum.reduce([x, y, 6 - x, 6 - y]) < 0.1
+    return np.stack([x, y, z], axis=1), normals, edge
+
+
+def test_normals_at_a_noisy_boundary():
+    points, normals, edge = noisy_patch()
+    field = estimate_directions(points, radius=1.0, degree=10, orders=(2,), normals=normals)
+    off = np.degrees(np.arccos(np.clip((field.frames[:, 2] * normals).sum(1), -1.0, 1.0)))
+    flagged = (field.status & Status.UNCERTAIN_FRAME) != 0
+    assert flagged[edge].mean() > 0.5
+    assert np.mean(off > 20.0) < 0.005
+    assert off[flagged].max() < 20.0
+    sure = field[2].maxima
+    wrong = off[sure.point_index] > 20.0
+    assert not np.any(sure.angle_std[wrong] < 0.05)
+
+
+@pytest.mark.parametrize("uncertainty", [False, True])
+@pytest.mark.parametrize("norm", ["l2", "l1"])
+def test_a_flagged_point_has_the_answer_of_the_principal_plane(norm, uncertainty):
+    points, normals, edge = noisy_patch()
+    asked = {"radius": 1.0, "degree": 8, "orders": (2, 3), "norm": norm, "uncertainty": uncertainty}
+    tangent, principal = (
+        estimate_directions(points, frame=frame, normals=normals, queries=points[edge], **asked)
+        for frame in ("tangent", "principal")
+    )
+    flagged = (tangent.status & Status.UNCERTAIN_FRAME) != 0
+    assert 0.05 < flagged.mean() < 0.95
+    np.testing.assert_array_equal(tangent.frames[flagged], principal.frames[flagged])
+    np.testing.assert_array_equal(
+        tangent.coefficient(3, 1)[flagged], principal.coefficient(3, 1)[flagged]
+    )
+    assert np.abs(tangent.coefficient(1, 1)[flagged]).min() > 0.0
+    np.testing.assert_array_equal(tangent.coefficient(1, 1)[~flagged], 0.0)
+    assert not np.any(principal.status & Status.UNCERTAIN_FRAME)
+    for k in (2, 3):
+        for kind in ("maxima", "minima"):
+            mine, theirs = getattr(tangent[k], kind), getattr(principal[k], kind)
+            at, there = flagged[mine.point_index], flagged[theirs.point_index]
+            np.testing.assert_array_equal(mine.angle[at], theirs.angle[there])
+            np.testing.assert_array_equal(mine.angle_std[at], theirs.angle_std[there])
