@@ -41,6 +41,9 @@ from pdtheory.pointset.summary import order_summaries, status_sentences
 #: Property of a stroke object that tells several fields on one surface apart.
 SUFFIX_KEY: Final = "pdtheory_suffix"
 
+#: Property of a stroke object: the name that it was given here; the user may have changed it.
+_NAME_KEY: Final = "pdtheory_name"
+
 #: Property of the object that shows the neighbourhood of a point.
 BALL_KEY: Final = "pdtheory_ball"
 
@@ -114,6 +117,10 @@ def show_result(
         home = collection_of(thing)
         shown = add_glyphs(data, name=name, collection=home, parent=thing, strokes=strokes)
         shown[SUFFIX_KEY] = suffix
+    if shown.get(_NAME_KEY, shown.name) == shown.name:
+        # The surface may have another name by now, and Blender numbers equal ones.
+        shown.name = name
+        shown[_NAME_KEY] = shown.name
     # The strokes were computed in world orientation: undo what the parent does to them.
     shown.matrix_parent_inverse = Matrix(np.linalg.inv(source.linear).tolist()).to_4x4()
     before = shown.get(POINTS_KEY)

@@ -388,6 +388,19 @@ def test_strokes_grow_with_their_surface_unless_they_were_tuned(operators, monke
     assert compat.get_input(modifier, "Spacing") == pytest.approx(spacing, rel=1e-3)
 
 
+def test_strokes_follow_the_name_of_their_surface_unless_they_have_one(operators, monkey):
+    from pdtheory.blender.result import strokes_of
+
+    strokes = strokes_of(monkey)
+    for name in ("head", "face"):
+        monkey.name = name
+        operators.compute(**QUICK)
+        assert strokes.name == f"{name} directions"
+    strokes.name = "hair"
+    operators.compute(**QUICK)
+    assert strokes.name == "hair"
+
+
 def test_orders_that_were_switched_off_stay_off(operators, monkey):
     from pdtheory.blender import compat
     from pdtheory.blender.glyphs import find_modifier
