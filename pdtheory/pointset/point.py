@@ -5,8 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass
-from html import escape
-from math import degrees, factorial, inf, isfinite
+from math import degrees, isfinite
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -15,14 +14,12 @@ import numpy.typing as npt
 from pdtheory.conventions import Kind, Status, frequencies
 from pdtheory.errors import InputError
 from pdtheory.pointset.cloud import FloatArray
-from pdtheory.pointset.summary import coloured_order
-from pdtheory.pointset.words import angle_with_error, coordinate, status_words, with_error
+from pdtheory.pointset.pointtext import point_html, point_text
+from pdtheory.pointset.words import status_words
 
 if TYPE_CHECKING:
     from pdtheory.plots.polar import PolarTerm
     from pdtheory.pointset.field import DirectionField
-
-_HEADINGS = ("order", "kind", "angle (degrees)", "lambda", "strength")
 
 #: A constant is known if it is so many times larger than what rounding left beside it.
 _ABOVE_ROUNDING = 1e4
@@ -117,28 +114,10 @@ class PointDirections:
         return f"<PointDirections: point {self.index}, {counts or 'no directions'}>"
 
     def __str__(self) -> str:
-        if self.status.unanswered:
-            return "\n".join(self._heading())
-        rows = [_HEADINGS, *self._rows()]
-        widths = [max(len(row[i]) for row in rows) for i in range(len(_HEADINGS))]
-        lines = [
-            "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
-            for row in rows
-        ]
-        return "\n".join([*self._heading(), *lines])
+        return point_text(self)
 
     def _repr_html_(self) -> str:
-        head = "".join(f"<th>{escape(text)}</th>" for text in _HEADINGS)
-        body = "".join(
-            "<tr>"
-            + f"<td>{coloured_order(int(row[0]))}</td>"
-            + "".join(f"<td>{escape(text)}</td>" for text in row[1:])
-            + "</tr>"
-            for row in self._rows()
-        )
-        lines = "<br>".join(escape(line) for line in self._heading())
-        table = f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
-        return f"<div>{lines}{table}{self._inline_plot()}</div>"
+        return point_html(self)
 
     def plot(self, path: str | os.PathLike[str] | None = None) -> Any:
         """Draw g_k of every order in polar form, with the directions and their error bars.
@@ -244,61 +223,6 @@ class PointDirections:
 
     def _listed(self) -> list[tuple[int, tuple[Direction, ...]]]:
         return [(order, rows) for order, rows in self.directions.items() if rows]
-
-    def _heading(self) -> list[str]:
-        place = ", ".join(coordinate(x, self.radius) for x in self.position.tolist())
-        normal = ", ".join(f"{x:.4g}" for x in self.frame[2])
-        where = f"within R = {self.radius:.6g}" if self.radius else "at the same place"
-        around = f"{self.neighbours} neighbour{'s' * (self.neighbours != 1)} {where}"
-        lines = [f"point {self.index} at ({place}), {around}"]
-        if not self.status.unanswered:
-            lines.append(
-                f"normal ({normal}), degree {self.degree}, residuals {self.residual_rms:.2g} (rms)"
-            )
-        words = status_words(self.status)
-        verdict = "no answer: the point has" if self.status.unanswered else "note: the point has"
-        lines.append(f"{verdict} {'; '.join(words)}" if words else "answered as asked")
-        return lines
-
-    def _rows(self) -> list[tuple[str, ...]]:
-        rows: list[tuple[str, ...]] = []
-        for order, directions in self.directions.items():
-            if order in self.isotropic:
-                rows.append((str(order), "all", "every direction", "", ""))
-            elif not directions:
-                rows.append((str(order), "none", f"above degree {self.degree}", "", ""))
-            for row in directions:
-                rows.append(
-                    (
-                        str(order),
-                        row.kind.label,
-                        angle_with_error(row.angle, row.angle_std),
-                        with_error(row.eigenvalue, row.eigenvalue_std, limit=self._limit(row)),
-                        f"{row.strength:.3g}",
-                    )
-                )
-        return rows
-
-    def _limit(self, row: Direction) -> float:
-        """Return the deviation of an eigenvalue beyond which it says nothing.
-
-        Where it leaves no digit, and the term may leave the neighbourhood: at the distance R its
-        height is R times the strength.
-        """
-        height = row.eigenvalue_std / factorial(row.order) * self.radius ** (row.order - 1)
-        return 10.0 * abs(row.eigenvalue) if height > 1.0 else inf
-
-    def _inline_plot(self) -> str:
-        """Return the polar plot as SVG, or nothing where it cannot be drawn."""
-        if self.status.unanswered:
-            return ""
-        from pdtheory.errors import MissingDependencyError
-        from pdtheory.plots.polar import figure_svg
-
-        try:
-            return figure_svg(self.plot())
-        except MissingDependencyError:
-            return ""
 
 
 def point_directions(field: DirectionField, index: int) -> PointDirections:
