@@ -14,6 +14,7 @@ from pdtheory.exact.eigenpair import EigenPair
 from pdtheory.exact.eigenpairs import EigenPairs, real_eigenpairs
 from pdtheory.exact.expression import parse_expression
 from pdtheory.exact.faces import BinaryForm, Face
+from pdtheory.exact.factorcache import remember_primes_only
 from pdtheory.exact.intervals import Enclosure
 from pdtheory.exact.inverse import Realization, realize_maxima, rows_with_critical_lines
 from pdtheory.exact.jets import explicit_jet, implicit_jet, parametric_jet
@@ -28,6 +29,8 @@ from pdtheory.exact.surfacejet import SurfaceJet
 from pdtheory.exact.taylor import differential_tensor, taylor_forms
 from pdtheory.exact.tensor import SymmetricTensor
 from pdtheory.exact.wavejets import WavejetsRow
+
+remember_primes_only()
 
 __all__ = [
     "BinaryForm",
