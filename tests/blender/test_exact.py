@@ -161,7 +161,7 @@ def test_places_without_a_computed_point_do_not_count(operators):
     assert lines[2] == "Without a computed point, left out: 1 of 1 places."
 
 
-@pytest.mark.parametrize("extent", [0.125, 1.0, 100.0])
+@pytest.mark.parametrize("extent", [1e-3, 1.0, 100.0])
 def test_places_are_on_vertices_whatever_the_size(operators, extent):
     import bpy
 
