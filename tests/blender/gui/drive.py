@@ -203,6 +203,12 @@ def scenario_compute():
     shot("redo")
 
 
+def plotted():
+    """Return the point whose plots are in the panel, None if there are none yet."""
+    (module,) = (m for name, m in sys.modules.items() if name.endswith("directions.polar_plot"))
+    return module._plots.shown and module._plots.shown[1]
+
+
 def scenario_polar():
     """Open the panel of the selected point and its plots, and go from one vertex to another."""
     panels = {n: getattr(bpy.types, f"DIRECTIONS_PT_{n}") for n in ("result", "drawing", "polar")}
@@ -231,7 +237,10 @@ def scenario_polar():
     for name, vertex in (("nowhere", 10**6), ("saddle", 0), ("elsewhere", 40)):
         thing.principal_directions.point = vertex
         area.tag_redraw()
-        yield 6.0
+        if name != "nowhere":
+            # The first plots ever wait for a list of the fonts.
+            yield from wait_for(lambda vertex=vertex: plotted() == vertex, 60.0)
+        yield 2.0
         shot(name)
     bpy.ops.principal_directions.plot_point()
     (image,) = (i for i in bpy.data.images if i.name.endswith("polar plot"))
