@@ -198,3 +198,31 @@ def test_the_panel_says_that_the_object_has_changed(operators, monkey):
     assert "changed" not in " ".join(lines)
     subdivide(monkey)
     assert "monkey has changed since; compute" in " ".join(written("DIRECTIONS_PT_result"))
+
+
+@pytest.mark.parametrize("scale", [1e-9, 1.0, 1e9])
+def test_the_table_of_a_point_is_short_whatever_the_size(torus_field, scale):
+    from dataclasses import replace
+
+    from blender_addon.inspect_point import table
+
+    field = torus_field[1]
+    rows = replace(
+        field[3], eigenvalue=-1.23456 * scale * field[3].eigenvalue, eigenvalue_std=field[3].angle
+    )
+    for order, kind, angle, eigenvalue in table(replace(field, directions={3: rows}), 0):
+        assert order == 3
+        # What is longer is cut off in a sidebar of the width that Blender gives it at first.
+        assert len(kind) <= 5
+        assert len(angle) <= 13
+        assert len(eigenvalue) <= 18
+        first = field[3].eigenvalue[0]
+        assert abs(float(eigenvalue.split()[0])) == pytest.approx(1.23456 * scale * first, rel=5e-4)
+
+
+def test_the_panel_of_a_point_names_each_order_once(operators, monkey):
+    operators.compute(**QUICK)
+    lines = written("DIRECTIONS_PT_point")
+    assert lines[:3] == ["Kind", "Angle (°)", "Eigenvalue"]
+    assert [line for line in lines if line.startswith("Order")] == ["Order 2", "Order 3"]
+    assert {"max", "min"} <= set(lines)
