@@ -65,7 +65,8 @@ def estimate_directions(
     frame : {"tangent", "principal", "given"}
         The local plane: tangent to the fitted surface, the robust principal plane of the
         neighbours, or orthogonal to the given normals. Where the fit does not tell the tangent
-        plane, the principal one takes its place, with the status ``UNCERTAIN_FRAME``.
+        plane, that of a lower degree or the principal one takes its place, with the status
+        ``UNCERTAIN_FRAME``.
     weight_distance : {"3d", "planar"}
         Distance that the weights depend on: in space, which depends on no plane and is the default,
         or in the local plane.

@@ -25,8 +25,8 @@ STATUS_WORDS = {
     Status.ONE_SIDED: "neighbours on one side only, as at a boundary",
     Status.UNORIENTED: "a normal whose side is not known, so that signs are open",
     Status.NOT_CONVERGED: "no convergence in the l1 norm",
-    Status.UNCERTAIN_FRAME: "a tangent plane hidden by an edge or by noise (the principal plane "
-    "instead)",
+    Status.UNCERTAIN_FRAME: "a tangent plane hidden by an edge or by noise (that of a simpler "
+    "fit instead)",
 }
 
 

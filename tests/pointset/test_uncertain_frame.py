@@ -86,25 +86,33 @@ def test_normals_at_a_noisy_boundary():
 
 @pytest.mark.parametrize("uncertainty", [False, True])
 @pytest.mark.parametrize("norm", ["l2", "l1"])
-def test_a_flagged_point_has_the_answer_of_the_principal_plane(norm, uncertainty):
-    points, normals, edge = noisy_patch()
+def test_a_flagged_point_has_the_jet_over_the_plane_that_it_gives(norm, uncertainty):
+    points, normals, _ = noisy_patch()
     asked = {"radius": 1.0, "degree": 8, "orders": (2, 3), "norm": norm, "uncertainty": uncertainty}
-    tangent, principal = (
-        estimate_directions(points, frame=frame, normals=normals, queries=points[edge], **asked)
-        for frame in ("tangent", "principal")
+    field = estimate_directions(points, normals=normals, **asked)
+    flagged = (field.status & Status.UNCERTAIN_FRAME) != 0
+    assert 10 < flagged.sum() < 2000
+    assert np.abs(field.coefficient(1, 1)[flagged]).min() > 0.0
+    np.testing.assert_array_equal(field.coefficient(1, 1)[~flagged], 0.0)
+    given = estimate_directions(points, frame="given", normals=field.frames[:, 2], **asked)
+    assert not np.any(given.status & Status.UNCERTAIN_FRAME)
+    mine, theirs = field.take(flagged), given.take(flagged)
+    np.testing.assert_allclose(mine.frames, theirs.frames, atol=1e-12)
+    size = np.abs(theirs.coefficient(3, 1)).max()
+    loose = 1e-3 if norm == "l1" else 1e-8  # l1 stops when it has nearly converged
+    np.testing.assert_allclose(
+        mine.coefficient(3, 1), theirs.coefficient(3, 1), atol=loose * size, rtol=0.0
     )
-    flagged = (tangent.status & Status.UNCERTAIN_FRAME) != 0
-    assert 0.05 < flagged.mean() < 0.95
-    np.testing.assert_array_equal(tangent.frames[flagged], principal.frames[flagged])
-    np.testing.assert_array_equal(
-        tangent.coefficient(3, 1)[flagged], principal.coefficient(3, 1)[flagged]
-    )
-    assert np.abs(tangent.coefficient(1, 1)[flagged]).min() > 0.0
-    np.testing.assert_array_equal(tangent.coefficient(1, 1)[~flagged], 0.0)
-    assert not np.any(principal.status & Status.UNCERTAIN_FRAME)
-    for k in (2, 3):
-        for kind in ("maxima", "minima"):
-            mine, theirs = getattr(tangent[k], kind), getattr(principal[k], kind)
-            at, there = flagged[mine.point_index], flagged[theirs.point_index]
-            np.testing.assert_array_equal(mine.angle[at], theirs.angle[there])
-            np.testing.assert_array_equal(mine.angle_std[at], theirs.angle_std[there])
+    if uncertainty and norm == "l2":
+        # The error of a plane that is not fitted does not count.
+        np.testing.assert_allclose(mine[2].maxima.angle_std, theirs[2].maxima.angle_std, rtol=1e-6)
+
+
+def test_in_principal_axes_and_given_planes_nothing_is_tilted():
+    points, normals, edge = noisy_patch()
+    for frame in ("principal", "given"):
+        field = estimate_directions(
+            points, radius=1.0, degree=10, orders=(2,), normals=normals, frame=frame,
+            queries=points[edge],
+        )  # fmt: skip
+        assert not np.any(field.status & Status.UNCERTAIN_FRAME)

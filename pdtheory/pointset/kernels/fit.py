@@ -13,6 +13,7 @@ from pdtheory.pointset.kernels.moments import WEIGHT
 from pdtheory.pointset.kernels.regression import (
     degree_start,
     doubtful,
+    misfit,
     regress,
     settle,
 )
@@ -142,25 +143,6 @@ def choose_frame(cloud: Array, n: int, reference: Array, settings: Settings, w: 
 
 
 @inner
-def prefit(
-    cloud: Array,
-    points: int,
-    n: int,
-    degree: int,
-    reference: Array,
-    settings: Settings,
-    w: Any,
-) -> None:
-    """Tilt the frame by the gradient of a fit of low degree."""
-    cx, cy, _ = project(cloud, points, n, settings.planar, w)
-    reached, _ = regress(cloud, WEIGHT, n, degree, w)
-    a, b = gradient(w.c, degree, -cx, -cy, w)
-    if reached >= 1 and a * a + b * b < 1.0:
-        tilt(w.frame, a, b)
-        face(w.frame, reference[0], reference[1], reference[2])
-
-
-@inner
 def slope_known(
     degree: int, reached: int, n: int, noise: float, pivot: float, cx: float, cy: float, w: Any
 ) -> bool:
@@ -174,6 +156,33 @@ def slope_known(
         return True
     free = n - (reached + 1) * (reached + 2) // 2
     return noise * np.sqrt(n / free) * slope_spread(degree, -cx, -cy, w) < UNSURE
+
+
+@inner
+def prefit(
+    cloud: Array,
+    points: int,
+    n: int,
+    degree: int,
+    reference: Array,
+    settings: Settings,
+    inside: int,
+    w: Any,
+) -> None:
+    """Tilt the frame by the gradient of a fit of low degree.
+
+    With `inside` points, not 0, only if these tell it.
+    """
+    cx, cy, weight = project(cloud, points, n, settings.planar, w)
+    reached, pivot = regress(cloud, WEIGHT, n, degree, w)
+    if inside > 0:
+        noise = misfit(cloud, n, degree, weight, w)
+        if not slope_known(degree, reached, inside, noise, pivot, cx, cy, w):
+            return
+    a, b = gradient(w.c, degree, -cx, -cy, w)
+    if reached >= 1 and a * a + b * b < 1.0:
+        tilt(w.frame, a, b)
+        face(w.frame, reference[0], reference[1], reference[2])
 
 
 @inner
@@ -213,10 +222,11 @@ def fit_point(
     if status & _DEGENERATE:
         return Fit(status, 0, 0, 0.0, 0.0, np.nan, np.nan, inside, False)
     tangent = settings.frame == FRAME_TANGENT
+    first = min(PREFIT_DEGREE, degree - 1)
     if tangent:
-        w.kept[:] = w.frame
-        if degree > 2:
-            prefit(cloud, points, n, min(PREFIT_DEGREE, degree - 1), reference, settings, w)
+        w.principal[:] = w.frame
+        if first > 1:
+            prefit(cloud, points, n, first, reference, settings, 0, w)
     turns = RETILTS if tangent else 0
     trusted = TRUST_L1 if settings.robust else 1.0
     turn = 0
@@ -231,11 +241,13 @@ def fit_point(
             w.centred[i] = w.c[i]
         shift(w.c, degree, cx, cy, w.table)
         if tangent and not slope_known(degree, reached, inside, noise, pivot, cx, cy, w):
-            # The principal plane is known far better, and takes the place of the tangent plane.
+            # A lower degree may tell the plane, and its principal axes always do.
             status |= _UNCERTAIN
             tangent = False
             turns = turn
-            w.frame[:] = w.kept
+            w.frame[:] = w.principal
+            if first > 1:
+                prefit(cloud, points, n, first, reference, settings, inside, w)
             continue
         if turn == turns or not tilt_matters(w.c, degree, noise, w.norms):
             break
