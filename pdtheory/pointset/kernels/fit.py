@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from pdtheory.conventions import Status
-from pdtheory.pointset.kernels.frames import face, principal_frame, tilt
+from pdtheory.pointset.kernels.frames import copy_frame, face, principal_frame, tilt
 from pdtheory.pointset.kernels.jit import Array, inner
 from pdtheory.pointset.kernels.moments import WEIGHT
 from pdtheory.pointset.kernels.regression import (
@@ -224,7 +224,7 @@ def fit_point(
     tangent = settings.frame == FRAME_TANGENT
     first = min(PREFIT_DEGREE, degree - 1)
     if tangent:
-        w.principal[:] = w.frame
+        copy_frame(w.frame, w.principal)
         if first > 1:
             prefit(cloud, points, n, first, reference, settings, 0, w)
     turns = RETILTS if tangent else 0
@@ -245,7 +245,7 @@ def fit_point(
             status |= _UNCERTAIN
             tangent = False
             turns = turn
-            w.frame[:] = w.principal
+            copy_frame(w.principal, w.frame)
             if first > 1:
                 prefit(cloud, points, n, first, reference, settings, inside, w)
             continue

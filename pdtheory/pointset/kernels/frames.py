@@ -153,6 +153,14 @@ def tilt(frame: Array, a: float, b: float) -> None:
 
 
 @inner
+def copy_frame(source: Array, target: Array) -> None:
+    """Copy a frame; of a whole assignment Numba would also compile the words of its errors."""
+    for axis in range(3):
+        for i in range(3):
+            target[axis, i] = source[axis, i]
+
+
+@inner
 def output_frame(frame: Array, out: Array) -> tuple[float, float]:
     """Write the frame with the same normal and a t1 that depends on the normal only.
 

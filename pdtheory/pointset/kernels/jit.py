@@ -48,7 +48,8 @@ def kernel(function: F) -> F:
     cannot be written to; where neither can be, the code is compiled anew in each process. A kernel
     calls kernels of other modules, so its cache is tied to the sources of all of them.
     """
-    return compile_as(Whole, _compile(function))
+    # Nor does anybody call it from C.
+    return compile_as(Whole, _compile(function, no_cfunc_wrapper=True))
 
 
 def inner(function: F) -> F:
