@@ -10,10 +10,14 @@ import numpy as np
 from pdtheory.errors import InputError
 from pdtheory.pointset.cloud import FloatArray
 from pdtheory.pointset.intake import FEWEST
+from pdtheory.pointset.kernels.fit import MARGIN
 from pdtheory.pointset.trees import kd_tree
 
 #: Most neighbours of one point.
 MAX_NEIGHBOURS = 100_000
+#: Largest radius, in diagonals of the bounding box. One that holds the whole cloud is of use for a
+#: single patch; one much larger is a mistake in the units, and singles out no part of the surface.
+MOST_DIAGONALS = 10.0
 #: Most neighbours, at half of the points, within a radius that is tried unasked.
 AUTO_NEIGHBOURS = 1_000
 
@@ -79,9 +83,15 @@ def choose(
         raise InputError(f"{name} must be a number, not {size!r}.")
     if not np.isfinite(size) or size <= 0:
         raise InputError(f"{name} must be positive and finite, not {size}.")
-    if radius is not None:
-        return Choice(float(radius), None)
-    return Choice(float(size) * diagonal, None)
+    chosen = float(size) if radius is not None else float(size) * diagonal
+    if chosen > MOST_DIAGONALS * diagonal:
+        unit = " diagonals of the bounding box" if radius is None else ""
+        raise InputError(
+            f"{name} of {size:g}{unit} is far larger than the cloud, whose bounding box has a "
+            f"diagonal of {diagonal:.3g}; give one that reaches over a small part of the surface, "
+            f"such as {diagonal / 20.0:.2g} in the units of the points."
+        )
+    return Choice(chosen, None)
 
 
 def choose_radii(
@@ -165,12 +175,18 @@ def _median_radii(points: FloatArray, counts: Sequence[int]) -> list[float]:
 
 
 def suggest_radius(points: FloatArray, degree: int) -> str:
-    """Return advice in words: a radius that holds twice the coefficients at half of the points."""
-    wanted = (degree + 1) * (degree + 2)
-    if len(points) < wanted:
+    """Return advice in words: a radius that holds twice the coefficients at half of the points.
+
+    Or all points, if they are fewer and still bear the degree. Degree 2 is borne by the fewest
+    points that are taken, so a lower degree is never proposed there.
+    """
+    size = (degree + 1) * (degree + 2) // 2
+    if len(points) < MARGIN * size:
         return (
             f"there are {len(points)} points in all, few for degree {degree}: give more, or a "
             "lower degree and a larger radius"
         )
+    wanted = min(2 * size, len(points))
     (radius,) = _median_radii(points, [wanted])
-    return f"a radius of {radius:.3g} holds {wanted} at half of the points"
+    # Half a percent more, so that rounding to three digits loses none of them.
+    return f"a radius of {1.005 * radius:.3g} holds {wanted} at half of the points"

@@ -98,14 +98,33 @@ def test_thin_slanted_strip():
     assert abs(abs(field.coefficient(2, 2)[0]) - 0.075) < 1e-7
 
 
-@pytest.mark.parametrize("radius", [10.0, 1e6])
-def test_radius_larger_than_the_cloud(radius):
+def test_radius_larger_than_the_cloud():
     rng = np.random.default_rng(0)
     xy = rng.uniform(-1, 1, (400, 2))
     points = np.column_stack([xy, 0.1 * xy[:, 0] ** 2])
-    field = estimate_directions(points, radius=radius, degree=2, orders=(2,), queries=[0])
+    field = estimate_directions(points, radius=10.0, degree=2, orders=(2,), queries=[0])
     assert field.neighbours[0] == 400
     assert abs(abs(field[2].eigenvalue).max() - 0.2) < 1e-2
+
+
+@pytest.mark.parametrize(
+    "choice",
+    [
+        {"radius": 45.0},
+        {"radius": 1e30},
+        {"radius": [0.3, 1e6]},
+        {"radius_relative": 10.5},
+        {"radius_relative": 1e300},
+    ],
+)
+def test_a_radius_in_the_wrong_unit_is_refused(choice):
+    points = torus(400, 1.0, 0.4, 1)[0]
+    with pytest.raises(
+        InputError, match=r"radius of .* far larger than the cloud.* diagonal of 4.*such as 0\.2"
+    ) as refused:
+        estimate_directions(points, **choice)
+    advised = float(str(refused.value).split("such as ")[1].split()[0])
+    estimate_directions(torus(4000, 1.0, 0.4, 1)[0], radius=advised, degree=4, queries=[0])
 
 
 def test_a_crowded_cell_is_refused_before_the_work():
@@ -136,6 +155,20 @@ def test_repeated_points_with_a_number_of_neighbours_are_refused():
     points = np.repeat(np.random.default_rng(0).random((20, 3)), 12, axis=0)
     with pytest.raises(InputError, match=r"^the 9 nearest points lie all in one place"):
         estimate_directions(points, neighbours=9, degree=3)
+
+
+@pytest.mark.parametrize("count", [8, 9, 11, 12, 40])
+def test_the_advice_for_few_points_can_be_followed(count):
+    x, y = np.random.default_rng(count).uniform(-1, 1, (2, count))
+    points = np.column_stack([x, y, 0.2 * x * x - 0.1 * y * y])
+    with pytest.raises(InputError, match="too few for a fit; a radius of ") as refused:
+        estimate_directions(points, radius=1e-5, degree=2, orders=(2,))
+    words = str(refused.value)
+    assert "lower degree" not in words
+    radius, count = (float(words.split(before)[1].split()[0]) for before in ("of ", "holds "))
+    field = estimate_directions(points, radius=radius, degree=2, orders=(2,))
+    assert np.mean(field.neighbours >= count) >= 0.5
+    assert field.answered.mean() >= 0.5
 
 
 def test_too_few_points_for_the_degree_are_named():
