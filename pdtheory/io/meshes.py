@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from pdtheory.errors import FileFormatError, InputError
+from pdtheory.interrupts import signals_held
 from pdtheory.io.textmesh import bare_obj, plain_obj, require_whole_off, require_whole_ply
 from pdtheory.pointset.cloud import FloatArray, IntArray, PointCloud
 
@@ -28,7 +29,8 @@ _OBJ_NORMALS = re.compile(rb"^vn +(.*)$", re.MULTILINE)
 
 def mesh_suffixes() -> set[str]:
     """Return the suffixes, with their dot, that trimesh reads here."""
-    from trimesh.exchange.load import mesh_formats
+    with signals_held():
+        from trimesh.exchange.load import mesh_formats
 
     return {f".{name}" for name in mesh_formats()} - {".xyz", ".stl_ascii"}
 
@@ -58,7 +60,8 @@ def read_mesh(path: Path) -> PointCloud:
     FileFormatError
         If the file is damaged or holds no points.
     """
-    import trimesh
+    with signals_held():
+        import trimesh
 
     try:
         scene = _load_scene(path)
@@ -156,7 +159,8 @@ def sample_mesh(cloud: PointCloud, count: int, seed: int) -> PointCloud:
         If there are no triangles, their area is zero or infinite, or `count` or `seed` is out of
         range.
     """
-    import trimesh
+    with signals_held():
+        import trimesh
 
     if not 1 <= count <= MOST_SAMPLES:
         raise InputError(f"samples = {count}; give a positive number up to {MOST_SAMPLES:,}.")
@@ -193,7 +197,8 @@ def _doubled_areas(points: FloatArray, faces: IntArray) -> FloatArray:
 
 
 def _load_scene(path: Path) -> trimesh.Scene:
-    import trimesh
+    with signals_held():
+        import trimesh
 
     if path.suffix.lower() == ".off":
         require_whole_off(path.read_text(encoding="utf-8", errors="replace"))

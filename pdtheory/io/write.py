@@ -8,6 +8,7 @@ from pathlib import Path
 
 from pdtheory.atomic import atomic_path
 from pdtheory.errors import FileFormatError, InputError
+from pdtheory.interrupts import signals_held
 from pdtheory.io.ply import write_ply
 from pdtheory.io.vtp import write_vtp
 from pdtheory.pointset.cloud import PointCloud
@@ -119,7 +120,8 @@ def write_cloud(cloud: PointCloud, path: str | os.PathLike[str]) -> None:
         elif suffix == ".obj":
             _write_obj(temporary, cloud)
         else:
-            import trimesh
+            with signals_held():
+                import trimesh
 
             mesh = trimesh.Trimesh(cloud.points, cloud.faces, process=False)
             mesh.export(temporary, file_type="stl")

@@ -8,6 +8,7 @@ import numpy as np
 
 from pdtheory.conventions import order_colour
 from pdtheory.errors import InputError, MissingDependencyError
+from pdtheory.interrupts import signals_held
 from pdtheory.pointset.field import DirectionField
 from pdtheory.pointset.table import direction_columns, glyph_columns
 
@@ -54,8 +55,9 @@ def to_trimesh(field: DirectionField, *, length: float | None = None) -> Any:
     """Return a trimesh Path3D; see :meth:`DirectionField.to_trimesh`."""
     if length is not None and not (np.isfinite(length) and length > 0):
         raise InputError(f"length is {length}; give a positive length in the units of the points.")
-    from trimesh.path import Path3D
-    from trimesh.path.entities import Line
+    with signals_held():
+        from trimesh.path import Path3D
+        from trimesh.path.entities import Line
 
     points, columns = glyph_columns(field)
     reach = stroke_length(field) if length is None else length
