@@ -61,6 +61,46 @@ def test_the_flag_follows_the_uncertainty_of_the_slope(degree, least, noise):
     assert tilt[~flagged].max() < 45.0
 
 
+@pytest.mark.parametrize(("degree", "n"), [(2, 12), (4, 40), (6, 60)])
+@pytest.mark.parametrize("size", [0.3, 0.15, 0.08])
+def test_a_patch_beyond_a_gap_does_not_tell_the_slope_here(degree, n, size):
+    rng = np.random.default_rng(3)
+    clouds, bounds = [], []
+    for number in range(60):
+        r, t = size * np.sqrt(rng.random(n)), rng.uniform(0, 2 * np.pi, n)
+        x, y, z = r * np.cos(t) + 0.99 - size, r * np.sin(t), 1e-3 * size * rng.normal(size=n)
+        bounds.append(bound_on_slope(x, y, z, degree))
+        clouds.append(np.stack([x + 10.0 * number, y, z], axis=1))
+    queries = np.stack([10.0 * np.arange(60), np.zeros(60), np.zeros(60)], axis=1)
+    points = np.concatenate(clouds)
+    field = estimate_directions(
+        points, radius=1.0, degree=degree, orders=(2,), queries=queries,
+        normals=np.broadcast_to(UP, points.shape),
+    )  # fmt: skip
+    flagged = (field.status & Status.UNCERTAIN_FRAME) != 0
+    assert not np.any(field.answered & ~flagged & (np.array(bounds) > 1.0))
+
+
+def test_a_tilt_that_makes_the_fit_worse_is_taken_back():
+    rng = np.random.default_rng(5)
+    x, y = rng.uniform(0, 1, (2, 20000))
+    k = 2 * np.pi / 0.12
+    amplitude = 1.05 / k
+    z = amplitude * np.sin(k * x) * np.sin(k * y)
+    by_x, by_y = (amplitude * k * np.cos(k * u) * np.sin(k * v) for u, v in ((x, y), (y, x)))
+    normals = np.stack([-by_x, -by_y, np.ones_like(x)], axis=1)
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    inner = np.flatnonzero((abs(x - 0.5) < 0.3) & (abs(y - 0.5) < 0.3))[:1000]
+    points = np.stack([x, y, z], axis=1)
+    field = estimate_directions(
+        points, neighbours=264, degree=10, orders=(2,), queries=points[inner], normals=normals,
+    )  # fmt: skip
+    off = np.degrees(np.arccos(np.clip((field.frames[:, 2] * normals[inner]).sum(1), -1.0, 1.0)))
+    plain = (field.status & Status.UNCERTAIN_FRAME) == 0
+    assert plain.mean() > 0.9
+    assert np.quantile(off[plain], 0.99) < 6.0
+
+
 def noisy_patch():
     rng = np.random.default_rng(0)
     x, y = rng.uniform(0, 6, (2, 4000))
@@ -71,9 +111,12 @@ def noisy_patch():
     return np.stack([x, y, z], axis=1), normals, edge
 
 
-def test_normals_at_a_noisy_boundary():
+@pytest.mark.parametrize("norm", ["l2", "l1"])
+def test_normals_at_a_noisy_boundary(norm):
     points, normals, edge = noisy_patch()
-    field = estimate_directions(points, radius=1.0, degree=10, orders=(2,), normals=normals)
+    field = estimate_directions(
+        points, radius=1.0, degree=10, orders=(2,), normals=normals, norm=norm
+    )
     off = np.degrees(np.arccos(np.clip((field.frames[:, 2] * normals).sum(1), -1.0, 1.0)))
     flagged = (field.status & Status.UNCERTAIN_FRAME) != 0
     assert flagged[edge].mean() > 0.5

@@ -16,6 +16,7 @@ from pdtheory.pointset.kernels.regression import (
     misfit,
     regress,
     settle,
+    typical_residual,
 )
 from pdtheory.pointset.kernels.tilting import (
     gradient,
@@ -37,8 +38,8 @@ RETILTS = 8
 #: Bound on the standard deviation of the slope above which it does not tell the tangent plane. The
 #: deviation itself is about 0.7 times that, and errors are carried on to first order only.
 UNSURE = 0.3
-#: With l1 the residual may be that of outliers, so a tenth of it is taken for noise.
-TRUST_L1 = 0.1
+#: A tilt is taken back if it leaves more than this multiple of the residual.
+WORSE = 1.1
 #: Distance of the weighted centroid, as a fraction of the radius, of a one-sided neighbourhood.
 ONE_SIDED = 0.18
 
@@ -143,19 +144,23 @@ def choose_frame(cloud: Array, n: int, reference: Array, settings: Settings, w: 
 
 
 @inner
+def noise_of(cloud: Array, n: int, residual: float, settings: Settings) -> float:
+    """Return the noise that residuals speak of; with l1, large ones may be those of outliers."""
+    if settings.robust:
+        return min(residual, typical_residual(cloud, n, 0))
+    return residual
+
+
+@inner
 def slope_known(
     degree: int, reached: int, n: int, noise: float, pivot: float, cx: float, cy: float, w: Any
 ) -> bool:
     """Whether a fit to n points, centred at (cx, cy), tells the gradient at the origin.
 
-    `noise` is the root mean square of the residuals, which leaves out what went into the
-    coefficients.
+    `noise` is that of the residuals, which leaves out what went into the coefficients.
     """
-    # The spread for unit noise is of the order of 1 / sqrt(pivot) at most.
-    if noise < 0.1 * UNSURE * np.sqrt(pivot):
-        return True
-    free = n - (reached + 1) * (reached + 2) // 2
-    return noise * np.sqrt(n / free) * slope_spread(degree, -cx, -cy, w) < UNSURE
+    noise *= np.sqrt(n / (n - (reached + 1) * (reached + 2) // 2))
+    return noise * slope_spread(degree, -cx, -cy, pivot, UNSURE / noise, w) < UNSURE
 
 
 @inner
@@ -176,7 +181,7 @@ def prefit(
     cx, cy, weight = project(cloud, points, n, settings.planar, w)
     reached, pivot = regress(cloud, WEIGHT, n, degree, w)
     if inside > 0:
-        noise = misfit(cloud, n, degree, weight, w)
+        noise = noise_of(cloud, n, misfit(cloud, n, degree, weight, w), settings)
         if not slope_known(degree, reached, inside, noise, pivot, cx, cy, w):
             return
     a, b = gradient(w.c, degree, -cx, -cy, w)
@@ -220,38 +225,45 @@ def fit_point(
     status = _LOWERED if degree < settings.degree else 0
     status |= choose_frame(cloud, n, reference, settings, w)
     if status & _DEGENERATE:
-        return Fit(status, 0, 0, 0.0, 0.0, np.nan, np.nan, inside, False)
+        return Fit(_DEGENERATE, 0, 0, 0.0, 0.0, np.nan, np.nan, inside, False)
     tangent = settings.frame == FRAME_TANGENT
     first = min(PREFIT_DEGREE, degree - 1)
     if tangent:
-        copy_frame(w.frame, w.principal)
+        copy_frame(w.frame, w.kept)
         if first > 1:
             prefit(cloud, points, n, first, reference, settings, 0, w)
     turns = RETILTS if tangent else 0
-    trusted = TRUST_L1 if settings.robust else 1.0
     turn = 0
+    before = np.inf
     while True:
         cx, cy, weight = project(cloud, points, n, settings.planar, w)
         reached, pivot = regress(cloud, WEIGHT, n, degree, w)
         if reached < 0:
-            return Fit(status | _DEGENERATE, 0, 0, 0.0, 0.0, np.nan, np.nan, inside, False)
+            return Fit(_DEGENERATE, 0, 0, 0.0, 0.0, np.nan, np.nan, inside, False)
         residual, refined = settle(cloud, WEIGHT, n, degree, weight, pivot, w)
-        noise = trusted * residual
         for i in range(len(w.c)):
             w.centred[i] = w.c[i]
         shift(w.c, degree, cx, cy, w.table)
-        if tangent and not slope_known(degree, reached, inside, noise, pivot, cx, cy, w):
-            # A lower degree may tell the plane, and its principal axes always do.
-            status |= _UNCERTAIN
-            tangent = False
+        if not tangent:
+            break
+        noise = noise_of(cloud, n, residual, settings)
+        known = slope_known(degree, reached, inside, noise, pivot, cx, cy, w)
+        if not known or (0 < turn < turns and residual > WORSE * before):
+            # Back to the frame before, for good.
+            copy_frame(w.kept, w.frame)
             turns = turn
-            copy_frame(w.principal, w.frame)
-            if first > 1:
-                prefit(cloud, points, n, first, reference, settings, inside, w)
+            if not known:
+                status |= _UNCERTAIN
+                tangent = False
+                if turn == 0 and first > 1:
+                    # A lower degree may tell the plane, and its principal axes always do.
+                    prefit(cloud, points, n, first, reference, settings, inside, w)
             continue
         if turn == turns or not tilt_matters(w.c, degree, noise, w.norms):
             break
         turn += 1
+        copy_frame(w.frame, w.kept)
+        before = residual
         last = degree_start(degree, 0)
         tilt(w.frame, w.c[last - 2], w.c[last - 1])
         face(w.frame, reference[0], reference[1], reference[2])

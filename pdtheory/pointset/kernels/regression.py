@@ -35,6 +35,9 @@ FULL_DISC = make_tables()["full_disc"].copy()
 #: roundings, the misfit by itself over the root of the pivot, of which that may be a thousandth.
 REFINE_PIVOT, EXACT_PIVOT, ROUNDING = 1e-5, 1e-4, 1e3 * 2.2e-16
 
+#: Halvings of an interval after which a number in it is known to rounding, if it is not 1e-4 of it.
+_HALVINGS = 64
+
 
 @inner
 def degree_start(top: int, degree: int) -> int:
@@ -133,6 +136,37 @@ def misfit(cloud: Array, n: int, degree: int, total: float, w: Any) -> float:
     for i in range(n):
         squares += cloud[WEIGHT, i] * cloud[RESIDUAL, i] * cloud[RESIDUAL, i]
     return np.sqrt(squares / total)
+
+
+@inner
+def typical_residual(cloud: Array, n: int, passed: int) -> float:
+    """Return the standard deviation of normal noise with the median of the absolute residuals.
+
+    `passed` residuals are left out, the smallest ones: those of points that the fit passes through.
+    """
+    sizes = cloud[PRODUCT]
+    inside = 0
+    high = 0.0
+    for i in range(n):
+        if cloud[WEIGHT, i] > 0.0:
+            sizes[inside] = abs(cloud[RESIDUAL, i])
+            high = max(high, sizes[inside])
+            inside += 1
+    if inside <= passed:
+        return np.inf
+    # Halving finds the median to rounding; a sort of Numba takes seconds to compile.
+    rank = passed + (inside - passed) // 2
+    low = 0.0
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        below = 0
+        for i in range(inside):
+            below += int(sizes[i] <= middle)
+        if below > rank:
+            high = middle
+        else:
+            low = middle
+    return high / 0.6744897501960817
 
 
 @inner

@@ -20,6 +20,9 @@ from pdtheory.pointset.kernels.tables import ROWS, SIDE
 #: Effect of a remaining tilt that is tolerated, as a fraction of the residual and of the height.
 TILT_OF_RESIDUAL, TILT_OF_HEIGHT = 0.3, 1e-13
 
+#: Margin of a rough bound on a spread.
+ROUGH = 10.0
+
 _PARTS = range(0, SIDE, LANES)
 
 
@@ -110,34 +113,21 @@ def shift(c: Array, degree: int, cx: float, cy: float, table: Array) -> None:
 
 
 @inner
-def _fill_gradient(axis: int, degree: int, x: float, y: float, powers: Array, v: Array) -> None:
-    """Write the derivatives of the monomials x^a y^b at a point by x (axis 0) or y (axis 1).
-
-    Parameters
-    ----------
-    degree : int
-        Largest degree; the monomials stand as the coefficients do, from index 1 on.
-    x, y : float
-        The point.
-    powers : (2, > degree) float64
-        Scratch.
-    v : (> coefficient count,) float64
-        Receives the derivatives.
-    """
-    powers[0, 0] = 1.0
-    powers[1, 0] = 1.0
+def _fill_gradients(degree: int, x: float, y: float, w: Any) -> None:
+    """Write the derivatives of the monomials at a point by x to ``w.v``, and by y to ``w.y``."""
+    powers = w.powers
+    powers[0, 0] = powers[1, 0] = 1.0
+    powers[2, 0] = powers[3, 0] = 0.0
     for i in range(degree):
         powers[0, i + 1] = powers[0, i] * x
         powers[1, i + 1] = powers[1, i] * y
+        powers[2, i + 1] = (i + 1) * powers[0, i]
+        powers[3, i + 1] = (i + 1) * powers[1, i]
     row = 1
     for d in range(degree, -1, -1):
         for b in range(d + 1):
-            a = d - b
-            v[row] = 0.0
-            if axis == 0 and a > 0:
-                v[row] = a * powers[0, a - 1] * powers[1, b]
-            if axis == 1 and b > 0:
-                v[row] = b * powers[0, a] * powers[1, b - 1]
+            w.v[row] = powers[2, d - b] * powers[1, b]
+            w.y[row] = powers[0, d - b] * powers[3, b]
             row += 1
 
 
@@ -146,8 +136,7 @@ def gradient(c: Array, degree: int, x: float, y: float, w: Any) -> tuple[float, 
     """Return the derivatives of sum c_ab x^a y^b by x and y at a point."""
     by_x = 0.0
     by_y = 0.0
-    _fill_gradient(0, degree, x, y, w.powers, w.v)
-    _fill_gradient(1, degree, x, y, w.powers, w.y)
+    _fill_gradients(degree, x, y, w)
     for i in range(1, degree_start(degree, 0)):
         by_x += c[i] * w.v[i]
         by_y += c[i] * w.y[i]
@@ -155,19 +144,27 @@ def gradient(c: Array, degree: int, x: float, y: float, w: Any) -> tuple[float, 
 
 
 @inner
-def slope_spread(degree: int, x: float, y: float, w: Any) -> float:
+def slope_spread(degree: int, x: float, y: float, pivot: float, enough: float, w: Any) -> float:
     """Bound the standard deviation of the gradient at a point for noise of 1 in the heights.
 
     As no weight is above 1, the covariance of the coefficients is at most the inverse of the normal
-    equations, G^-1 = L^-1 L^-T.
+    equations, G^-1 = L^-1 L^-T. That is worked out only if a rougher bound, from the diagonal of L
+    and the smallest relative pivot, is above `enough`.
     """
     count = degree_start(degree, 0)
+    _fill_gradients(degree, x, y, w)
     total = 0.0
-    for axis in range(2):
-        _fill_gradient(axis, degree, x, y, w.powers, w.v)
-        solve_transposed(w.G, count, w.inverses, w.v, w.y)
-        for i in range(1, count + 1):
-            total += w.y[i] * w.y[i]
+    for i in range(1, count + 1):
+        total += (w.v[i] * w.v[i] + w.y[i] * w.y[i]) * w.inverses[i] * w.inverses[i]
+    # The least eigenvalue of a scaled matrix may be somewhat below its smallest pivot.
+    total *= ROUGH / pivot
+    if total < enough * enough:
+        return np.sqrt(total)
+    solve_transposed(w.G, count, w.inverses, w.v, w.step)
+    solve_transposed(w.G, count, w.inverses, w.y, w.v)
+    total = 0.0
+    for i in range(1, count + 1):
+        total += w.step[i] * w.step[i] + w.v[i] * w.v[i]
     return np.sqrt(total)
 
 

@@ -26,12 +26,9 @@ from pdtheory.pointset.kernels.moments import (
     multiply_rows,
     sum_moments,
 )
-from pdtheory.pointset.kernels.regression import degree_start
+from pdtheory.pointset.kernels.regression import degree_start, typical_residual
 from pdtheory.pointset.kernels.tables import ROWS, SIDE
 from pdtheory.pointset.kernels.tilting import add_product, spread_out
-
-#: Halvings of an interval after which a number in it is known to rounding, if it is not 1e-4 of it.
-_HALVINGS = 64
 
 
 @emit
@@ -187,39 +184,6 @@ def _inner_products(
 
 
 @inner
-def _noise_of_l1(cloud: Array, n: int, used: int) -> float:
-    """Return the scale that stands for the noise in the covariance of an l1 fit.
-
-    That is 1 / (2 f(0)) with the density f of the noise, taken to be normal about zero, where its
-    standard deviation follows from the median of the absolute residuals. An l1 fit passes through
-    as many points as it has coefficients, so that many residuals are left out.
-    """
-    sizes = cloud[PRODUCT]
-    inside = 0
-    high = 0.0
-    for i in range(n):
-        if cloud[WEIGHT, i] > 0.0:
-            sizes[inside] = abs(cloud[RESIDUAL, i])
-            high = max(high, sizes[inside])
-            inside += 1
-    if inside <= used:
-        return np.inf
-    # Halving finds the median to rounding; a sort of Numba takes seconds to compile.
-    rank = used + (inside - used) // 2
-    low = 0.0
-    for _ in range(_HALVINGS):
-        middle = 0.5 * (low + high)
-        below = 0
-        for i in range(inside):
-            below += int(sizes[i] <= middle)
-        if below > rank:
-            high = middle
-        else:
-            low = middle
-    return np.sqrt(np.pi / 2.0) * high / 0.6744897501960817
-
-
-@inner
 def prepare_covariances(cloud: Array, n: int, fit: Fit, robust: Any, tables: Any, w: Any) -> float:
     """Set up ``w.X`` and the gradient for `order_covariance`; returns the noise of the heights.
 
@@ -265,7 +229,9 @@ def prepare_covariances(cloud: Array, n: int, fit: Fit, robust: Any, tables: Any
         total += cloud[WEIGHT, i]
         squares += cloud[WEIGHT, i] * cloud[RESIDUAL, i] * cloud[RESIDUAL, i]
     if robust is not None:
-        return _noise_of_l1(cloud, n, count + 1 - first)
+        # 1 / (2 f(0)), with the density f of the noise, which is taken to be normal about zero. An
+        # l1 fit passes through as many points as it has coefficients: those are left out.
+        return np.sqrt(np.pi / 2.0) * typical_residual(cloud, n, count + 1 - first)
     left = total - used
     return np.sqrt(squares / left) if left > 0.0 else np.inf
 
