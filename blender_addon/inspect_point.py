@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One point: its directions as a table, its Wavejets row, its neighbourhood as a ball."""
 
-from math import degrees
+from math import degrees, isfinite
 
 import bmesh
 import bpy
@@ -17,7 +17,7 @@ from pdtheory.blender.result import (
 from pdtheory.blender.storage import POINTS_KEY, VERTICES_KEY
 from pdtheory.conventions import Status
 from pdtheory.errors import InputError, PdtheoryError
-from pdtheory.pointset.words import LARGEST_ANGLE_ERROR, UNDETERMINED
+from pdtheory.pointset.words import LARGEST_ANGLE_ERROR, UNDETERMINED, largest_eigenvalue_error
 
 from .jobs import has_result, surface_object
 
@@ -90,17 +90,23 @@ def table(field, point):
         for i in range(part.start, part.stop):
             angle, off = (degrees(a[i]) for a in (directions.angle, directions.angle_std))
             value, by = (a[i] for a in (directions.eigenvalue, directions.eigenvalue_std))
+            limit = largest_eigenvalue_error(value, by, order, field.radius[point])
             rows.append(
                 (
                     order,
                     _KINDS[int(directions.kind[i])],
-                    UNDETERMINED
-                    if off > LARGEST_ANGLE_ERROR
-                    else f"{angle:.1f} ± {_uncertainty(off)}",
-                    f"{_number(value, 4)} ± {_uncertainty(by)}",
+                    _with_error(f"{angle:.1f}", off, LARGEST_ANGLE_ERROR),
+                    _with_error(_number(value, 4), by, limit),
                 )
             )
     return rows
+
+
+def _with_error(number, error, limit):
+    """Return a number and its deviation, alone if none is known, or that the number is unknown."""
+    if not isfinite(error):
+        return number
+    return UNDETERMINED if error > limit else f"{number} ± {_uncertainty(error)}"
 
 
 def _number(value, digits):

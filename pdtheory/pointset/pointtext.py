@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 from html import escape
-from math import factorial, inf
 from typing import TYPE_CHECKING
 
 from pdtheory.errors import MissingDependencyError
 from pdtheory.pointset.summary import coloured_order
-from pdtheory.pointset.words import angle_with_error, coordinate, status_words, with_error
+from pdtheory.pointset.words import (
+    angle_with_error,
+    coordinate,
+    largest_eigenvalue_error,
+    status_words,
+    with_error,
+)
 
 if TYPE_CHECKING:
-    from pdtheory.pointset.point import Direction, PointDirections
+    from pdtheory.pointset.point import PointDirections
 
 _HEADINGS = ("order", "kind", "angle (degrees)", "lambda", "strength")
 
@@ -70,26 +75,18 @@ def _rows(point: PointDirections) -> list[tuple[str, ...]]:
         elif not directions:
             rows.append((str(order), "none", f"above degree {point.degree}", "", ""))
         for row in directions:
+            value, error = row.eigenvalue, row.eigenvalue_std
+            limit = largest_eigenvalue_error(value, error, order, point.radius)
             rows.append(
                 (
                     str(order),
                     row.kind.label,
                     angle_with_error(row.angle, row.angle_std),
-                    with_error(row.eigenvalue, row.eigenvalue_std, limit=_limit(point, row)),
+                    with_error(value, error, limit=limit),
                     f"{row.strength:.3g}",
                 )
             )
     return rows
-
-
-def _limit(point: PointDirections, row: Direction) -> float:
-    """Return the deviation of an eigenvalue beyond which it says nothing.
-
-    Where it leaves no digit, and the term may leave the neighbourhood: at the distance R its height
-    is R times the strength.
-    """
-    height = row.eigenvalue_std / factorial(row.order) * point.radius ** (row.order - 1)
-    return 10.0 * abs(row.eigenvalue) if height > 1.0 else inf
 
 
 def _inline_plot(point: PointDirections) -> str:

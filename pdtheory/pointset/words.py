@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import ceil, degrees, floor, inf, isfinite, log10
+from math import ceil, degrees, factorial, floor, inf, isfinite, log10
 
 from pdtheory.conventions import Status
 
@@ -98,6 +98,21 @@ def angle_with_error(angle: float, error: float) -> str:
     ('28.65 ± 0.57', '28.6 (undetermined)')
     """
     return with_error(degrees(angle), degrees(error), limit=LARGEST_ANGLE_ERROR)
+
+
+def largest_eigenvalue_error(value: float, error: float, order: int, radius: float) -> float:
+    """Return the deviation of an eigenvalue beyond which it says nothing.
+
+    Where it leaves no digit, and the term may leave the neighbourhood: at the distance R its height
+    is R times the strength.
+
+    Examples
+    --------
+    >>> largest_eigenvalue_error(0.5, 100.0, 2, 0.1), largest_eigenvalue_error(0.5, 1.0, 2, 0.1)
+    (5.0, inf)
+    """
+    height = error / factorial(order) * radius ** (order - 1)
+    return 10.0 * abs(value) if height > 1.0 else inf
 
 
 def coordinate(value: float, radius: float) -> str:

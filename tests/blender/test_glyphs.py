@@ -221,3 +221,25 @@ def test_undetermined_angles_are_named(torus_field):
     *_, two, three = describe(field)
     assert two.endswith("± 0.57°")
     assert three.endswith("angles undetermined")
+
+
+def test_a_table_tells_no_more_of_eigenvalues_than_the_text_of_the_point(torus_field):
+    from blender_addon.inspect_point import table
+
+    field = torus_field[1]
+    rows = field[2]
+
+    def cells(**changed):
+        changed = replace(field, directions={2: replace(rows, **changed)})
+        shown = [row[2:] for row in table(changed, 7)]
+        return shown, str(changed.at(7)).splitlines()[-len(shown) :]
+
+    lost, text = cells(eigenvalue_std=np.abs(rows.eigenvalue) * 1e6)
+    assert {value for _, value in lost} == {"undetermined"}
+    assert all("(undetermined)" in line for line in text)
+    for unknown in (np.nan, np.inf):
+        alone = np.full(len(rows), unknown)
+        bare, text = cells(eigenvalue_std=alone, angle_std=alone)
+        assert not any(" ± " in line for line in text)
+        for angle, value in bare:
+            float(angle), float(value)
