@@ -53,15 +53,20 @@ class ShowExact(JobOperator, bpy.types.Operator):
         thing = surface_object(context)
         strokes = strokes_of(thing)
         estimated = field_of(strokes)
+        name = thing.name
+        recipe = json.loads(thing.principal_directions.surface)
+        if "resolution" not in recipe:
+            raise InputError(
+                f"{name} was added by an older version of the extension, which did not note its "
+                "resolution; add it anew and compute there."
+            )
         source = read_object(thing, evaluated=False)
         computed = np.linalg.inv(linear_part(strokes.matrix_parent_inverse))
         if not (is_similarity(source.linear) and is_similarity(computed)):
             raise InputError(
-                f"{thing.name} is scaled unevenly, which changes its directions; give it the same "
+                f"{name} is scaled unevenly, which changes its directions; give it the same "
                 "scale along all axes, and compute again."
             )
-        name = thing.name
-        recipe = json.loads(thing.principal_directions.surface)
         mesh = source.cloud.points @ np.linalg.inv(source.linear).T
         places = estimated.points @ np.linalg.inv(computed).T
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+
 import numpy as np
 import pytest
 from blender_objects import QUICK, refused
@@ -93,6 +95,15 @@ def test_an_uneven_scale_is_refused_while_it_lasts(operators, monkey):
     refused(operators.show_exact, "scaled unevenly")
     operators.compute(**QUICK)
     assert operators.show_exact() == {"FINISHED"}
+
+
+def test_a_surface_of_an_older_version_is_refused(operators, monkey):
+    operators.compute(**QUICK)
+    settings = monkey.principal_directions
+    recipe = json.loads(settings.surface)
+    del recipe["resolution"]
+    settings.surface = json.dumps(recipe)
+    refused(operators.show_exact, "monkey was added by an older version")
 
 
 def move_a_vertex(thing):
