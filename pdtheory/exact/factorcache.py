@@ -14,7 +14,9 @@ from sympy.ntheory import factor_, isprime
 
 def remember_primes_only() -> None:
     """Let SymPy 1.14 pass over composite numbers instead of raising; leave other versions alone."""
-    if not sp.__version__.startswith("1.14"):
+    store = factor_.factor_cache
+    # A store of the user's own class is the user's to correct.
+    if not sp.__version__.startswith("1.14") or type(store) is not factor_.FactorCache:
         return
 
     class PrimeFactors(factor_.FactorCache):
@@ -24,4 +26,5 @@ def remember_primes_only() -> None:
             if isprime(factor):
                 super().__setitem__(number, factor)
 
-    factor_.factor_cache = PrimeFactors(maxsize=factor_.factor_cache.maxsize)
+    # The store is public: whoever holds it keeps it, with what it holds.
+    store.__class__ = PrimeFactors
