@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from pdtheory.pointset.field import DirectionField
 
 #: A constant is known if it is so many times larger than what rounding left beside it.
-_ABOVE_ROUNDING = 1e4
+_ABOVE_ROUNDING = 1e3
 
 
 class Direction(NamedTuple):

@@ -206,6 +206,37 @@ def test_where_every_direction_is_one_no_rounding_is_plotted():
         assert two.quantity == "strength"
 
 
+@pytest.mark.parametrize("offset", [0.0, 1e4, 1e7])
+def test_the_rounding_of_a_plane_is_not_plotted(offset):
+    rng = np.random.default_rng(0)
+    flat = np.column_stack([rng.uniform(-1, 1, (3000, 2)), np.zeros(3000)])
+    turn = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+    points = flat @ turn + offset * np.array([1.0, 0.3, 0.2])
+    field = estimate_directions(points, neighbours=150, degree=6, orders=(2, 4))
+    assert field[2].isotropic.all()
+    assert field[4].isotropic.all()
+    for index in range(len(field)):
+        assert not any(term.phi.any() for term in field.at(index).polar_terms())
+
+
+def test_the_constants_of_a_sphere_far_away_are_plotted():
+    sphere = np.random.default_rng(0).normal(size=(3000, 3))
+    sphere /= np.linalg.norm(sphere, axis=1, keepdims=True)
+    field = estimate_directions(
+        sphere + 1e7 * np.eye(3)[0], neighbours=150, degree=6, orders=(2, 4)
+    )
+    both = np.flatnonzero(field[2].isotropic & field[4].isotropic)
+    assert len(both) > 100
+    for index in both:
+        point = field.at(index)
+        two, four = (term.phi for term in point.polar_terms())
+        # z = r^2 / 2 + r^4 / 8 + ...
+        assert abs(two[0]) == pytest.approx(point.radius / 2, rel=1e-3)
+        assert abs(four[0]) == pytest.approx(point.radius**3 / 8, rel=0.1)
+        assert not two[1:].any()
+        assert not four[1:].any()
+
+
 def test_html_has_the_table_and_the_plot(field):
     html = field.at(11)._repr_html_()
     assert html.count("<svg") == 1
