@@ -136,13 +136,13 @@ def _refuse_apart(field: DirectionField, cloud: PointCloud) -> None:
     places = field.points[field.answered]
     if not len(places):
         return
-    if cloud.faces is None or not len(cloud.faces):
-        middles, reach = surface_points(field, cloud), 0.0
-    else:
+    middles, reach = surface_points(field, cloud), 0.0
+    if cloud.faces is not None:
         corners = cloud.points[cloud.faces]
         corners = corners[np.isfinite(corners).all(axis=(1, 2))]
-        middles = corners.mean(axis=1)
-        reach = float(np.linalg.norm(corners - middles[:, None], axis=2).max())
+        if len(corners):
+            middles = corners.mean(axis=1)
+            reach = float(np.linalg.norm(corners - middles[:, None], axis=2).max())
     # No triangle is nearer than its middle less its size.
     within = float(field.radius[field.answered].max()) + reach
     tree = kd_tree(middles)

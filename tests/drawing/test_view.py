@@ -35,6 +35,16 @@ def test_an_elevation_out_of_range_is_refused(elevation):
         View(elevation=elevation)
 
 
+@pytest.mark.parametrize("faces", [[[0, 1, 1500], [2, 1500, 3]], []])
+def test_a_surface_without_a_finite_triangle_is_its_points(graph, faces):
+    field = estimate_directions(graph, radius=0.3, degree=3, orders=(2,))
+    points = np.vstack([graph, np.full(3, np.nan)])
+    faces = np.array(faces, dtype=np.int64).reshape(-1, 3)
+    assert natural_view(field, PointCloud(points, faces=faces)) == natural_view(field, None)
+    with pytest.raises(InputError, match="lies elsewhere"):
+        natural_view(field, PointCloud(points + 30.0, faces=faces))
+
+
 @pytest.mark.parametrize("meshed", [True, False])
 def test_a_surface_that_lies_elsewhere_is_refused(graph, meshed):
     field = estimate_directions(graph, radius=0.3, degree=3, orders=(2,))
