@@ -113,11 +113,12 @@ class DirectionsProgress(bpy.types.PropertyGroup):
     text: StringProperty(options={"SKIP_SAVE", "HIDDEN"})
 
 
-def _kept(key, empty):
+def _kept(key, empty, least=None):
     """Return what gets and sets a property of an object that is kept with its strokes.
 
     An object linked from another file keeps nothing, and strokes are local. What is set before
-    there are strokes stays with the object.
+    there are strokes stays with the object. Blender keeps to no ``min`` where a function sets what
+    is given, so the least value is a matter of the function.
     """
 
     def get(group):
@@ -125,7 +126,8 @@ def _kept(key, empty):
         return next((place[key] for place in places if place is not None and key in place), empty)
 
     def put(group, value):
-        (strokes_of(group.id_data) or group.id_data)[key] = value
+        kept = value if least is None else max(least, value)
+        (strokes_of(group.id_data) or group.id_data)[key] = kept
 
     return {"get": get, "set": put}
 
@@ -145,7 +147,7 @@ class DirectionsResult(bpy.types.PropertyGroup):
         description="Vertex whose directions are listed",
         translation_context=CONTEXT,
         min=0,
-        **_kept("pdtheory_point", 0),
+        **_kept("pdtheory_point", 0, least=0),
     )
     surface: StringProperty(description="Recipe of the synthetic surface the object was made from")
 

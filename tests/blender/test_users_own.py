@@ -196,6 +196,15 @@ def test_samples_are_named_by_number_and_not_by_a_vertex(operators):
     bpy.ops.object.mode_set(mode="OBJECT")
 
 
+def test_no_vertex_is_below_the_first(operators, monkey):
+    for computed in (False, True):
+        if computed:
+            operators.compute(**QUICK)
+        monkey.principal_directions.point = 3
+        monkey.principal_directions.point = -5
+        assert monkey.principal_directions.point == 0
+
+
 def test_a_new_vertex_has_a_number_but_no_result(operators, monkey):
     import bpy
 
