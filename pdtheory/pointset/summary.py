@@ -77,8 +77,9 @@ def order_summaries(field: DirectionField) -> list[OrderSummary]:
 def run_summaries(folder: str | os.PathLike[str]) -> list[OrderSummary]:
     """Return the summary of every order of a finished run in a folder, ascending.
 
-    The medians are those of the directions of 200,000 points, drawn at random, where there are
-    more: they need not all be in memory.
+    The medians are those of some directions where there are more than 200,000 queries: each is
+    drawn by itself, with a probability of 200,000 / number of queries, so that not all need be in
+    memory.
 
     Raises
     ------
