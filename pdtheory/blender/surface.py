@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from pdtheory.blender import compat
+from pdtheory.drawing.discs import disc_radii
 from pdtheory.drawing.thinning import choose_spots
 from pdtheory.errors import InputError
 from pdtheory.pointset.cloud import FloatArray, IntArray, PointCloud
@@ -120,7 +121,7 @@ def add_points(
         where = where[spots.spacing >= spots.spacing_for(_MOST_DISCS)]
     centre = points[where] if origin is None else points[where] - origin
     axis = np.tile([0.0, 0.0, 1.0], (len(where), 1)) if normals is None else normals[where]
-    radius = _disc_radius(centre)
+    radius = disc_radii(centre)
     # Discs in one plane would shade each other black; each sinks by an amount of its own.
     depth = 0.1 * radius * np.modf(0.6180339887498949 * np.arange(len(centre)))[0]
     centre = centre - depth[:, None] * axis
@@ -138,16 +139,6 @@ def add_points(
     mesh = _triangles(name, corners.reshape(-1, 3), faces.reshape(-1, 3))
     mesh.materials.append(surface_material())
     return _link(mesh, collection)
-
-
-def _disc_radius(points: FloatArray) -> FloatArray:
-    """Return radii at which discs on a surface overlap their neighbours."""
-    from scipy.spatial import cKDTree
-
-    distance, _ = cKDTree(points).query(points, k=min(7, len(points)))
-    far = np.asarray(distance)[:, -1]
-    typical = float(np.median(far))
-    return np.minimum(far, 3.0 * typical) * 0.75
 
 
 def _triangles(name: str, points: FloatArray, faces: IntArray) -> Any:

@@ -10,6 +10,7 @@ import numpy.typing as npt
 from scipy.spatial import cKDTree
 
 from pdtheory.drawing.choice import Choice
+from pdtheory.drawing.discs import disc_radii
 from pdtheory.drawing.glyphs import REACH, GlyphData, glyph_data, spread
 from pdtheory.errors import InputError
 from pdtheory.pointset.cloud import FloatArray, IntArray, PointCloud
@@ -22,8 +23,6 @@ _LIFT: Final = 0.06
 #: It is bent no farther than this part of its length, whatever the curvature.
 _LARGEST_BEND: Final = 0.5
 
-#: A disc reaches as far as the farthest of so many neighbours, itself among them.
-_COVERED: Final = 6
 #: A disc lies so far below its point, as a part of its radius.
 _SUNK: Final = 0.15
 
@@ -150,9 +149,7 @@ def discs(field: DirectionField, cloud: PointCloud | None) -> tuple[FloatArray, 
         centres = cloud.points
         frames = frames[cKDTree(places).query(centres)[1]]
     count = len(centres)
-    near, _ = cKDTree(centres).query(centres, k=min(_COVERED, count))
-    size = np.asarray(near).reshape(count, -1)[:, -1]
-    size = np.minimum(np.where(size > 0.0, size, 1.0), 2.0 * np.median(size))[:, None, None]
+    size = disc_radii(centres)[:, None, None]
     turn = np.arange(8) * (np.pi / 4.0)
     circle = np.stack([np.cos(turn), np.sin(turn)], axis=1)
     # A little below the points, or noise would bury their strokes.
