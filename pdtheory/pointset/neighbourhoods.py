@@ -10,6 +10,7 @@ import numpy as np
 from pdtheory.errors import InputError
 from pdtheory.pointset.cloud import FloatArray
 from pdtheory.pointset.intake import FEWEST
+from pdtheory.pointset.kernels.fit import MARGIN
 from pdtheory.pointset.trees import kd_tree
 
 #: Most neighbours of one point.
@@ -179,9 +180,6 @@ def suggest_radius(points: FloatArray, degree: int) -> str:
     Or all points, if they are fewer and still bear the degree. Degree 2 is borne by the fewest
     points that are taken, so a lower degree is never proposed there.
     """
-    # Here, because it takes Numba along.
-    from pdtheory.pointset.kernels.fit import MARGIN
-
     size = (degree + 1) * (degree + 2) // 2
     if len(points) < MARGIN * size:
         return (
