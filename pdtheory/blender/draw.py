@@ -141,7 +141,9 @@ def draw_field(
         tempfile.TemporaryDirectory(prefix=".", dir=temporary.parent) as folder,
     ):
         drawn = Path(folder) / job.target
-        _run(job, drawn, progress or (lambda fraction, text: None))
+        # A folder of its own: what Blender leaves behind in it, killed or not, goes with it.
+        with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as scratch:
+            _run(job, drawn, scratch, progress or (lambda fraction, text: None))
         drawn.replace(temporary)
 
 
@@ -175,8 +177,11 @@ def _job(
     return DrawingJob(field, cloud, output.name, choice, view, check_size(size), rays)
 
 
-def _run(job: DrawingJob, path: Path, progress: Progress) -> None:
-    """Let a process of its own draw `job` into `path`; it is killed if this one is interrupted."""
+def _run(job: DrawingJob, path: Path, scratch: str, progress: Progress) -> None:
+    """Let a process of its own draw `job` into `path`; it is killed if this one is interrupted.
+
+    Its temporary files go to the folder `scratch`.
+    """
     import pdtheory
 
     progress(0.0, "starting Blender")
@@ -187,7 +192,11 @@ def _run(job: DrawingJob, path: Path, progress: Progress) -> None:
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         stderr=subprocess.DEVNULL,
-        env={**os.environ, "PYTHONPATH": search},
+        env={
+            **os.environ,
+            **dict.fromkeys(("TMPDIR", "TEMP", "TMP"), scratch),
+            "PYTHONPATH": search,
+        },
     )
     try:
         finished = _converse(worker, job, progress)

@@ -5,7 +5,9 @@ from __future__ import annotations
 import signal
 import subprocess
 import sys
+import tempfile
 import time
+from contextlib import nullcontext
 
 import numpy as np
 import pytest
@@ -139,6 +141,28 @@ def test_bad_arguments_are_refused_in_a_sentence(tmp_path, torus_field, changes,
 def test_missing_folder_is_refused(tmp_path, torus_field):
     with pytest.raises(FileAccessError, match="does not exist"):
         draw_field(torus_field[1], torus_field[0], tmp_path / "nowhere" / "picture.png")
+
+
+@pytest.mark.blender
+@pytest.mark.parametrize("cancelled", [False, True])
+def test_nothing_stays_in_the_temporary_folder(tmp_path, torus_field, monkeypatch, cancelled):
+    folder = tmp_path / "temporary"
+    folder.mkdir()
+    for name in ("TMPDIR", "TEMP", "TMP"):
+        monkeypatch.setenv(name, str(folder))
+    monkeypatch.setattr(tempfile, "tempdir", str(folder))
+    seen = []
+
+    def watch(fraction, text):
+        seen.extend(folder.glob("*/*"))
+        if cancelled and "rendering" in text:
+            raise Cancelled("stopped on request.")
+
+    with pytest.raises(Cancelled) if cancelled else nullcontext():
+        draw_field(torus_field[1], None, tmp_path / "torus.png", progress=watch, **SMALL)
+    # Blender did make files of its own, in the folder that was removed.
+    assert seen
+    assert not list(folder.iterdir())
 
 
 @pytest.mark.blender
