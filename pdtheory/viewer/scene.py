@@ -60,9 +60,7 @@ class FieldView:
         self._offered = field.orders
         plotter.set_background("white")
         plotter.enable_anti_aliasing("ssaa")
-        self._points = surface_points(field, cloud)
-        self._place_camera(view)
-        self._add_surface(field, cloud)
+        self._place_camera(view, self._add_surface(field, cloud))
         self.refresh()
         plotter.reset_camera_clipping_range()
 
@@ -148,7 +146,8 @@ class FieldView:
             title_height=0.018,
         )
 
-    def _add_surface(self, field: DirectionField, cloud: PointCloud | None) -> None:
+    def _add_surface(self, field: DirectionField, cloud: PointCloud | None) -> FloatArray:
+        """Add triangles or discs and return the points that they reach to."""
         import pyvista
 
         if cloud is not None and cloud.faces is not None and len(cloud.faces):
@@ -164,7 +163,7 @@ class FieldView:
                 name="surface",
                 reset_camera=False,
             )
-            return
+            return surface_points(field, cloud)
         points, faces = discs(field, cloud)
         self.plotter.add_mesh(
             pyvista.PolyData.from_regular_faces(points, faces),
@@ -173,16 +172,17 @@ class FieldView:
             name="surface",
             reset_camera=False,
         )
+        return points
 
-    def _place_camera(self, view: View) -> None:
-        """Stand where the points just fill the window, and lie in the middle of it."""
+    def _place_camera(self, view: View, points: FloatArray) -> None:
+        """Stand where `points` just fill the window, and lie in the middle of it."""
         right, back, up = view.axes()
         turn, rise = np.radians(view.azimuth), np.radians(view.elevation)
         level = np.sin(turn) * right - np.cos(turn) * back
         outward = np.cos(rise) * level + np.sin(rise) * up
         upward = np.cos(rise) * up - np.sin(rise) * level
         axes = np.stack([np.cross(upward, outward), upward, outward])
-        seen = self._points @ axes.T
+        seen = points @ axes.T
         middle = (seen.min(axis=0) + seen.max(axis=0)) / 2.0
         seen -= middle
         width, height = self.plotter.window_size
