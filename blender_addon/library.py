@@ -29,8 +29,11 @@ def _installed() -> str:
 def forget_replaced() -> None:
     """Forget the modules of the library if its files are those of another version by now."""
     installed = _installed()
+    # What bears no mark was loaded by an extension that left none, or is no wheel of an extension:
+    # only those have a version with a "+".
+    unmarked = None if "+" in installed else installed
     loaded = sys.modules.get(_PACKAGES[0])
-    if loaded is not None and getattr(loaded, _LOADED, installed) != installed:
+    if loaded is not None and getattr(loaded, _LOADED, unmarked) != installed:
         for name in list(sys.modules):
             if name.partition(".")[0] in _PACKAGES:
                 sys.modules.pop(name)

@@ -19,7 +19,9 @@ import bpy, blender_addon, pdtheory, synthetic_surfaces
 
 blender_addon.register()
 blender_addon.unregister()
-again = sys.argv[-1]
+again = sys.argv[-2]
+if sys.argv[-1] == "unmarked":
+    del pdtheory.loaded_by_blender_as
 importlib.metadata.version = lambda name: again
 for name in [n for n in sys.modules if n.partition(".")[0] == "blender_addon"]:
     sys.modules.pop(name)
@@ -35,14 +37,22 @@ print("kept", sum(a is b for a, b in zip(before, after)))
 """
 
 
-@pytest.mark.parametrize(("version", "kept"), [("0.1.0+other", 0), ("as before", 3)])
-def test_the_library_of_another_version_is_forgotten(version, kept):
+@pytest.mark.parametrize(
+    ("version", "mark", "kept"),
+    [
+        ("0.1.0+other", "marked", 0),
+        ("0.1.0+other", "unmarked", 0),
+        ("as before", "marked", 3),
+        ("as before", "unmarked", 3),
+    ],
+)
+def test_the_library_of_another_version_is_forgotten(version, mark, kept):
     pytest.importorskip("bpy", exc_type=ImportError)
     script = SCRIPT
     if kept:
         script = script.replace("lambda name: again", "importlib.metadata.version")
     done = subprocess.run(
-        [sys.executable, "-c", script, version], cwd=ROOT, capture_output=True, text=True
+        [sys.executable, "-c", script, version, mark], cwd=ROOT, capture_output=True, text=True
     )
     assert done.returncode == 0, done.stderr
     assert f"kept {kept}" in done.stdout
