@@ -235,6 +235,7 @@ def _to_folder(
     from pdtheory.pointset.parts import discard_run, load_column
     from pdtheory.pointset.summary import run_summaries
 
+    created = not folder.exists()
     with progress_bar("Reading", quiet=quiet) as report:
         options["progress"] = report
         parts = estimate_to_disk(cloud, folder, resume=resume, **options)
@@ -242,7 +243,7 @@ def _to_folder(
         try:
             _refuse_empty(status, load_column(folder, "degree"), cloud, source, options)
         except InputError:
-            discard_run(folder)
+            discard_run(folder, created=created)
             raise
     if quiet:
         return

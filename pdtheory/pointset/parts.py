@@ -11,6 +11,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import fields
 from pathlib import Path
 from typing import Any
@@ -65,8 +66,13 @@ def check_parent(folder: Path) -> None:
         )
 
 
-def open_folder(folder: Path, plan: dict[str, Any], resume: bool) -> None:
+def open_folder(folder: Path, plan: dict[str, Any], resume: bool) -> bool:
     """Create the folder with its plan, or check that it belongs to the same run.
+
+    Returns
+    -------
+    bool
+        Whether the folder was created.
 
     Raises
     ------
@@ -76,6 +82,7 @@ def open_folder(folder: Path, plan: dict[str, Any], resume: bool) -> None:
         If it cannot be made.
     """
     check_parent(folder)
+    created = not folder.exists()
     try:
         folder.mkdir(exist_ok=True)
     except OSError as error:
@@ -86,7 +93,7 @@ def open_folder(folder: Path, plan: dict[str, Any], resume: bool) -> None:
     if not holds_run(folder):
         with atomic_path(folder / _PLAN) as temporary:
             temporary.write_text(json.dumps(plan, indent=1) + "\n", encoding="utf-8")
-        return
+        return created
     old = read_plan(folder)
     if not resume:
         raise InputError(
@@ -101,10 +108,18 @@ def open_folder(folder: Path, plan: dict[str, Any], resume: bool) -> None:
     for left in folder.glob(".part-*.npz"):
         # What a run that was killed was writing.
         left.unlink(missing_ok=True)
+    return created
 
 
-def discard_run(folder: Path) -> None:
+def discard_run(folder: Path, *, created: bool) -> None:
     """Take a finished run out of its folder, so that the folder can take another.
+
+    Parameters
+    ----------
+    folder
+        The folder.
+    created
+        Whether it was made for the run; then it goes too.
 
     Raises
     ------
@@ -115,6 +130,10 @@ def discard_run(folder: Path) -> None:
         # The plan goes last: parts without one would be taken for parts of the next run.
         for path in (*_finished(folder), folder / _PLAN):
             path.unlink()
+        if created:
+            # Unless somebody has put something into it.
+            with suppress(OSError):
+                folder.rmdir()
     except (FileAccessError, FileFormatError):
         raise
     except OSError as error:

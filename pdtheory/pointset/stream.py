@@ -75,7 +75,7 @@ def estimate_to_disk(
         "orders": [int(order) for order in run.orders],
         "input": _digest(run),
     }
-    open_folder(place, plan, resume)
+    created = open_folder(place, plan, resume)
     missing = [i for i in range(len(blocks)) if not part_path(place, i).exists()]
     before = 1.0 - len(missing) / max(len(blocks), 1)
     if run.progress is not None:
@@ -101,7 +101,7 @@ def estimate_to_disk(
     try:
         refuse_nothing(load_column(place, "status"), load_column(place, "neighbours"), run.engine)
     except InputError:
-        discard_run(place)
+        discard_run(place, created=created)
         raise
     return len(blocks)
 

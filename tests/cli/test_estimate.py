@@ -135,6 +135,10 @@ def test_folder_takes_another_run_after_one_that_answers_nothing(
     run = ("estimate", line, "-o", folder, "--degree", 2, "--orders", 2)
     for _ in range(2):
         assert "holds a run" not in refused(*run, "--radius", radius)
+        assert not folder.exists()
+    folder.mkdir()
+    for _ in range(2):
+        assert "holds a run" not in refused(*run, "--radius", radius)
         assert not list(folder.iterdir())
     plane = points_file(
         tmp_path, np.random.default_rng(0).random((300, 3)) * [1, 1, 0], "plane.xyz"
@@ -281,6 +285,7 @@ def test_folder_and_resume_are_used_together(
     message = refused("estimate", tmp_path / "absent.xyz", "-o", tmp_path / "no" / "run")
     assert f"the folder {tmp_path / 'no'} does not exist; create it first" in message
     assert "catches at most 1 point anywhere" in refused(*run, tmp_path / "run", "--radius", 1e-6)
+    assert not (tmp_path / "run").exists()
 
 
 def test_the_side_of_the_normals_can_be_asked_for(
@@ -390,12 +395,13 @@ def test_errors_begin_at_once(cli: Run, bumpy_cloud: Path, tmp_path: Path) -> No
 def test_a_result_without_directions_is_refused(refused: Refused, tmp_path: Path) -> None:
     corners = np.stack(np.meshgrid([0.0, 1], [0.0, 1], [0.0, 1]), axis=-1).reshape(-1, 3)
     cube = points_file(tmp_path, corners, "cube.xyz")
-    for target in (tmp_path / "field.npz", tmp_path / "run"):
+    (tmp_path / "there").mkdir()
+    for target in (tmp_path / "field.npz", tmp_path / "run", tmp_path / "there"):
         # Eight points bear degree 2 at most.
         message = refused("estimate", cube, "-o", target, "--neighbours", 80, "--orders", 3)
         assert re.search("no fit of more than degree [12] at any of the 8 points", message)
-    assert not (tmp_path / "field.npz").exists()
-    assert not list((tmp_path / "run").iterdir())
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["cube.xyz", "there"]
+    assert not list((tmp_path / "there").iterdir())
 
 
 def test_options_without_effect_are_refused(
