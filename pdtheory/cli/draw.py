@@ -48,7 +48,7 @@ def draw(
     elevation: Elevation = None,
     size: Annotated[str, typer.Option(help="Width x height of the picture.")] = "1200x900",
     rays: Annotated[int, typer.Option(help="Rays for each pixel.", min=1)] = 12,
-    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No progress bar.")] = False,
+    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing.")] = False,
 ) -> None:
     """Draw directions on their surface with Blender.
 
@@ -81,3 +81,5 @@ def draw(
             rays=rays,
             progress=report,
         )
+    if not quiet:
+        typer.echo(f"Wrote {output}")

@@ -12,8 +12,10 @@ from contextlib import nullcontext
 import numpy as np
 import pytest
 from blender_fields import torus
+from typer.testing import CliRunner
 
 from pdtheory.blender import draw_field
+from pdtheory.cli.main import app
 from pdtheory.errors import Cancelled, FileAccessError, InputError, MissingDependencyError
 
 SMALL = {"size": (96, 72), "rays": 4}
@@ -141,6 +143,17 @@ def test_bad_arguments_are_refused_in_a_sentence(tmp_path, torus_field, changes,
 def test_missing_folder_is_refused(tmp_path, torus_field):
     with pytest.raises(FileAccessError, match="does not exist"):
         draw_field(torus_field[1], torus_field[0], tmp_path / "nowhere" / "picture.png")
+
+
+@pytest.mark.parametrize("quiet", [False, True])
+def test_the_command_says_what_it_wrote(tmp_path, torus_field, monkeypatch, quiet):
+    monkeypatch.setattr("pdtheory.blender.draw.draw_field", lambda *given, **options: None)
+    torus_field[1].save(tmp_path / "field.npz")
+    output = tmp_path / "picture.png"
+    arguments = ["draw", str(tmp_path / "field.npz"), "-o", str(output), *["-q"][: int(quiet)]]
+    done = CliRunner().invoke(app, arguments)
+    assert done.exit_code == 0
+    assert done.stdout == ("" if quiet else f"Wrote {output}\n")
 
 
 @pytest.mark.blender
