@@ -261,8 +261,8 @@ def test_interrupted_folder_is_resumed_to_the_same_bits(cli: Run, tmp_path: Path
     words = stopped.stdout.split()
     assert float(words[3]) - float(words[1]) < 1.0
     before = {path.name: path.stat().st_mtime_ns for path in (tmp_path / "run").iterdir()}
-    # The plan and whole parts, and no temporary file.
-    assert set(before) == {"plan.json"} | {f"part-{i:06d}.npz" for i in range(len(before) - 1)}
+    # The plan and whole parts, and no temporary file. With threads a part may overtake another.
+    assert set(before) <= {"plan.json"} | {f"part-{i:06d}.npz" for i in range(6)}
     assert 3 <= len(before) < 7
     for name in sorted(before)[:-1]:
         DirectionField.load(tmp_path / "run" / name)
