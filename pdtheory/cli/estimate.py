@@ -98,7 +98,8 @@ def estimate(
     from pdtheory.io import read_cloud
     from pdtheory.io.write import FIELD_SUFFIXES
 
-    wanted = parse_orders(orders)
+    # In the tangent frame there is no term of order 1.
+    wanted = parse_orders(orders, smallest=2)
     if samples is None:
         refuse_given(
             context, ("seed",), "does nothing without --samples; give both, or leave it out."

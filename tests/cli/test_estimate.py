@@ -404,6 +404,13 @@ def test_a_result_without_directions_is_refused(refused: Refused, tmp_path: Path
     assert not list((tmp_path / "there").iterdir())
 
 
+def test_order_one_vanishes_in_the_tangent_frame_and_is_refused(
+    refused: Refused, bumpy_cloud: Path, tmp_path: Path
+) -> None:
+    message = refused("estimate", bumpy_cloud, "-o", tmp_path / "field.npz", "--orders", "1,2")
+    assert "give ascending orders between 2 and" in message
+
+
 def test_options_without_effect_are_refused(
     refused: Refused, bumpy_cloud: Path, tmp_path: Path
 ) -> None:
