@@ -88,3 +88,29 @@ def test_another_thread_holds_nothing() -> None:
     thread.start()
     thread.join()
     assert seen == [signal.getsignal(signal.SIGINT)]
+
+
+#: The signal comes while the commands are still being loaded.
+AT_THE_START = """
+import os, signal, sys
+
+class Interrupting:
+    sent = False
+
+    def find_spec(self, name, path=None, target=None):
+        if name == "typer" and not self.sent:
+            self.sent = True
+            os.kill(os.getpid(), signal.SIGINT)
+
+sys.meta_path.insert(0, Interrupting())
+from pdtheory.__main__ import run
+run()
+"""
+
+
+def test_a_command_that_is_still_being_loaded_ends_with_a_sentence() -> None:
+    done = subprocess.run(
+        [sys.executable, "-c", AT_THE_START, "--version"], capture_output=True, text=True
+    )
+    assert done.returncode == 130
+    assert done.stderr == "pdtheory: interrupted; nothing was left half-written.\n"
