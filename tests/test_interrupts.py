@@ -14,7 +14,11 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="sends signals")
 
 #: The signal comes while trimesh imports SciPy, an import that it guards against everything.
 AMID_THE_IMPORT = """
-import os, sys
+import os, signal, sys
+
+# As in a terminal, also where the tests run in the background of a shell.
+signal.signal(signal.SIGINT, signal.default_int_handler)
+signal.signal(signal.SIGTERM, signal.SIG_DFL)
 
 class Interrupting:
     sent = False
@@ -93,6 +97,8 @@ def test_another_thread_holds_nothing() -> None:
 #: The signal comes while the commands are still being loaded.
 AT_THE_START = """
 import os, signal, sys
+
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 class Interrupting:
     sent = False

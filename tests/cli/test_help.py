@@ -47,7 +47,7 @@ def test_what_help_speaks_of_is_in_the_usage(cli: Run) -> None:
 
 #: Stands in for a command that works on a file, with a process of its own beside it.
 WAITING = """
-import subprocess, sys, time
+import signal, subprocess, sys, time
 from pdtheory.atomic import atomic_path
 from pdtheory.cli import main
 
@@ -63,6 +63,9 @@ def wait(target: str) -> None:
         worker.kill()
         print("tidied", worker.wait(), flush=True)
 
+# As in a terminal, also where the tests themselves run under nohup.
+for name in ("SIGTERM", "SIGHUP"):
+    signal.signal(getattr(signal, name), signal.SIG_DFL)
 main.run()
 """
 
