@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import sys
 
+from pdtheory.interrupts import EXIT_CODE, SENTENCE
+
 
 def run() -> None:
     """Load the commands and run one."""
@@ -11,8 +13,8 @@ def run() -> None:
         from pdtheory.cli.main import run as start
     except KeyboardInterrupt:
         # Once they are loaded the commands see to it.
-        sys.stderr.write("pdtheory: interrupted; nothing was left half-written.\n")
-        sys.exit(130)
+        sys.stderr.write(f"{SENTENCE}\n")
+        sys.exit(EXIT_CODE)
     start()
 
 

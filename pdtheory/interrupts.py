@@ -7,6 +7,11 @@ import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
+from typing import Final
+
+#: What a command says, and the code it ends with, when Ctrl-C has ended it.
+SENTENCE: Final = "pdtheory: interrupted; nothing was left half-written."
+EXIT_CODE: Final = 130
 
 
 @contextmanager

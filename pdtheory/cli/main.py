@@ -25,6 +25,7 @@ from pdtheory.cli.sample import sample, surfaces
 from pdtheory.cli.verify import verify
 from pdtheory.cli.view import view
 from pdtheory.errors import PdtheoryError
+from pdtheory.interrupts import EXIT_CODE, SENTENCE
 
 
 class _Refusing(TyperGroup):
@@ -53,8 +54,8 @@ class _Refusing(TyperGroup):
             typer.echo(f"pdtheory: cannot write the answer: {error.strerror}.", err=True)
             raise typer.Exit(2) from error
         except KeyboardInterrupt:
-            typer.echo("pdtheory: interrupted; nothing was left half-written.", err=True)
-            raise typer.Exit(130) from None
+            typer.echo(SENTENCE, err=True)
+            raise typer.Exit(EXIT_CODE) from None
 
 
 class _Command(TyperCommand):
