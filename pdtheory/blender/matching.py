@@ -50,9 +50,9 @@ def same_points(wanted: FloatArray, points: FloatArray) -> bool:
     """Return True if points agree in number and place, within single precision."""
     if len(wanted) != len(points):
         return False
-    size = float(np.ptp(points, axis=0).max()) + float(np.abs(points).max())
     finite = np.isfinite(wanted).all(axis=1)
-    return bool(np.abs(wanted[finite] - points[finite]).max(initial=0.0) <= _TOLERANCE * size)
+    apart = np.abs(wanted[finite] - points[finite]).max(initial=0.0)
+    return bool(apart <= _nearness(points))
 
 
 def on_surface(wanted: FloatArray, points: FloatArray, faces: IntArray) -> bool:
@@ -60,12 +60,16 @@ def on_surface(wanted: FloatArray, points: FloatArray, faces: IntArray) -> bool:
     finite = wanted[np.isfinite(wanted).all(axis=1)]
     if not len(finite):
         return False
-    size = float(np.ptp(points, axis=0).max()) + float(np.abs(points).max())
+    near = _nearness(points)
     tree = BVHTree.FromPolygons(points.tolist(), faces.tolist(), all_triangles=True)
     some = finite[:: -(-len(finite) // _ASKED)]
-    return all(
-        tree.find_nearest(point, _TOLERANCE * size)[0] is not None for point in some.tolist()
-    )
+    return all(tree.find_nearest(point, near)[0] is not None for point in some.tolist())
+
+
+def _nearness(points: FloatArray) -> float:
+    """Return the distance within which a place is that of one of the points."""
+    size = float(np.ptp(points, axis=0).max()) + float(np.abs(points).max())
+    return _TOLERANCE * size
 
 
 def changed_since(thing: Any, strokes: Any) -> bool:
