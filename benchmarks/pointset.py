@@ -304,7 +304,7 @@ def stages() -> None:
     ):
         degree = settings.degree
         count = (degree + 1) * (degree + 2) // 2
-        done = fit.Fit(0, degree, degree, 0.0, 0.0, 0.0, 1.0, points)
+        done = fit.Fit(0, degree, degree, 0.0, 0.0, 0.0, 1.0, points, True)
         for _ in range(times):
             if number == 0:
                 grid.locate(cells, query, w.cells[1])
