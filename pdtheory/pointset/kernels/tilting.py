@@ -148,16 +148,24 @@ def slope_spread(degree: int, x: float, y: float, pivot: float, enough: float, w
     """Bound the standard deviation of the gradient at a point for noise of 1 in the heights.
 
     As no weight is above 1, the covariance of the coefficients is at most the inverse of the normal
-    equations, G^-1 = L^-1 L^-T. That is worked out only if a rougher bound, from the diagonal of L
-    and the smallest relative pivot, is above `enough`.
+    equations, G^-1 = L^-1 L^-T. That is worked out only if rougher bounds, from the diagonal of L
+    and the smallest relative pivot, are above `enough`. The point is to be in the unit disc, where
+    the gradient of a monomial is at most its degree.
     """
     count = degree_start(degree, 0)
+    # The least eigenvalue of a scaled matrix may be somewhat below its smallest pivot.
+    rough = ROUGH / pivot
+    total = 0.0
+    for i in range(1, count + 1):
+        total += w.inverses[i] * w.inverses[i]
+    total *= rough * degree * degree
+    if total < enough * enough:
+        return np.sqrt(total)
     _fill_gradients(degree, x, y, w)
     total = 0.0
     for i in range(1, count + 1):
         total += (w.v[i] * w.v[i] + w.y[i] * w.y[i]) * w.inverses[i] * w.inverses[i]
-    # The least eigenvalue of a scaled matrix may be somewhat below its smallest pivot.
-    total *= ROUGH / pivot
+    total *= rough
     if total < enough * enough:
         return np.sqrt(total)
     solve_transposed(w.G, count, w.inverses, w.v, w.step)
