@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 from concurrent.futures import ThreadPoolExecutor
+from math import factorial
 
 import numpy as np
 
@@ -13,7 +14,7 @@ from pdtheory.pointset.directions import OrderDirections
 from pdtheory.pointset.engine import Engine
 from pdtheory.pointset.field import DirectionField
 from pdtheory.pointset.kernels import results
-from pdtheory.pointset.kernels.results import COLUMNS, place
+from pdtheory.pointset.kernels.results import place
 from pdtheory.pointset.pool import Flag
 from pdtheory.pointset.selection import Selector
 
@@ -37,7 +38,8 @@ class Collector:
         self._table = np.array(wavejets_table(degree), dtype=np.int64)
         self._found = engine.make_found(len(points))
         # As large as they can get; the system gives only what is written to.
-        self._rows = [np.empty((len(points) * int(k), COLUMNS)) for k in engine.orders]
+        columns = results.row_columns(engine.settings.uncertainty)
+        self._rows = [np.empty((len(points) * int(k), columns)) for k in engine.orders]
         self._used = np.zeros(len(engine.orders), np.int64)
         self._slots: list[IntArray] = []
         self._lock = threading.Lock()
@@ -91,18 +93,24 @@ class Collector:
         firsts = np.zeros_like(lengths)
         firsts[slots] = np.cumsum(lengths[slots]) - lengths[slots]
         total = int(offsets[-1])
-        numbers = np.empty((results.VECTOR, total))
-        vectors, kinds = np.empty((total, 3)), np.empty(total, np.int8)
-        place(self._rows[j], order % 2 == 1, firsts, offsets, numbers, vectors, kinds)
+        # They go where they belong, and their memory serves the next order.
+        rows, self._rows[j] = self._rows[j], self._rows[j][:0].copy()
+        uncertain = rows.shape[1] == results.COLUMNS
+        angles, values, vectors = np.empty(total), np.empty((2, total)), np.empty((total, 3))
+        kinds, deviations = np.empty(total, np.int8), np.empty((2, total if uncertain else 0))
+        points = self._found.numbers
+        place(rows, order, float(factorial(order)), firsts, offsets, points,
+              angles, values, vectors, kinds, deviations)  # fmt: skip
+        unknown = np.broadcast_to(np.nan, total)
         return OrderDirections(
             order=order,
             offsets=offsets,
             vector=vectors,
             kind=kinds,
             isotropic=self._found.counts[j] < 0,
-            angle=numbers[results.ANGLE],
-            eigenvalue=numbers[results.EIGENVALUE],
-            strength=numbers[results.STRENGTH],
-            angle_std=numbers[results.ANGLE_STD],
-            eigenvalue_std=numbers[results.EIGENVALUE_STD],
+            angle=angles,
+            eigenvalue=values[0],
+            strength=values[1],
+            angle_std=deviations[0] if uncertain else unknown,
+            eigenvalue_std=deviations[1] if uncertain else unknown,
         )

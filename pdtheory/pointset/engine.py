@@ -18,13 +18,13 @@ from pdtheory.pointset.kernels.directions import BENCH, find_directions
 from pdtheory.pointset.kernels.fit import Settings
 from pdtheory.pointset.kernels.grid import Grid, build_grid, cell_order
 from pdtheory.pointset.kernels.results import (
-    COLUMNS,
     NEIGHBOURS,
     RADIUS,
     SPARE,
     Found,
     Traces,
     make_found,
+    row_columns,
 )
 from pdtheory.pointset.kernels.tables import WORKSPACE, make_cloud, make_record, make_tables
 from pdtheory.pointset.neighbourhoods import Choice, nearest, refuse_crowd
@@ -156,7 +156,7 @@ class Engine:
 
         Returns
         -------
-        (M, COLUMNS) float64
+        (M, PLAIN or COLUMNS) float64
             The directions of the half circle: order by order and, in each, query by query. The
             next call in this thread writes over them.
         """
@@ -202,6 +202,7 @@ class Engine:
                 break
             begin = -1 - done
             memory.cloud = make_cloud(2 * int(found.numbers[slots[begin], NEIGHBOURS]))
-        rows = memory.array("rows", size * int(self.orders.sum()), COLUMNS)
+        columns = row_columns(self.settings.uncertainty)
+        rows = memory.array("rows", size * int(self.orders.sum()), columns)
         count = find_directions(self.orders, tables, memory.bench, flag, traces, slots, found, rows)
         return rows[:count]

@@ -171,9 +171,7 @@ def _bracket(
         out.counts[j, slot] = 0
         if not out.numbers[slot, results.DEGREE] >= order:
             continue
-        scale = 1.0
-        for _ in range(order - 1):
-            scale *= out.numbers[slot, results.RADIUS]
+        scale = results.scale_of_order(out.numbers[slot, results.RADIUS], order)
         bench.scale[q - start] = scale
         largest, swing = _scale_term(out.phi[slot], column, order, scale, bench)
         bench.largest[q - start] = largest
@@ -207,8 +205,6 @@ def _store(
     entry: int,
     factorial: float,
     traces: Traces,
-    slots: IntArray,
-    out: Found,
     bench: Any,
     row: int,
     rows: Array,
@@ -221,8 +217,6 @@ def _store(
         count = int(bench.found[q - start])
         if count == 0:
             continue
-        numbers = out.numbers[slots[q]]
-        unit = factorial / bench.scale[q - start]
         largest = bench.largest[q - start]
         # What rounding has put at pi is the opposite of a direction at 0, and comes first.
         wraps = table[ANGLE, at + count - 1] > _HALF_CIRCLE
@@ -235,9 +229,11 @@ def _store(
             sign = way if order % 2 else 1.0
             c = way * table[COSINE, j]
             s = way * table[SINE, j]
-            g = sign * table[VALUE, j] * largest
-            angle_std = np.nan
-            g_std = np.nan
+            rows[row, results.ANGLE] = max(table[ANGLE, j], 0.0) if way > 0.0 else 0.0
+            rows[row, results.COSINE] = c
+            rows[row, results.SINE] = s
+            rows[row, results.VALUE] = sign * table[VALUE, j] * largest
+            rows[row, results.KIND] = sign * bench.kind[j]
             if uncertain:
                 turn_c = traces.turn[q, 0]
                 turn_s = traces.turn[q, 1]
@@ -250,16 +246,8 @@ def _store(
                     bench,
                 )
                 curvature = abs(table[CURVATURE, j]) * largest
-                angle_std = slope / curvature if curvature > 0.0 else np.inf
-            rows[row, results.ANGLE] = max(table[ANGLE, j], 0.0) if way > 0.0 else 0.0
-            for axis in range(3):
-                first = numbers[results.FRAME + axis]
-                rows[row, results.VECTOR + axis] = c * first + s * numbers[results.FRAME + 3 + axis]
-            rows[row, results.EIGENVALUE] = g * unit
-            rows[row, results.STRENGTH] = abs(g)
-            rows[row, results.ANGLE_STD] = angle_std
-            rows[row, results.EIGENVALUE_STD] = g_std * unit
-            rows[row, results.KIND] = sign * bench.kind[j]
+                rows[row, results.ANGLE_STD] = slope / curvature if curvature > 0.0 else np.inf
+                rows[row, results.EIGENVALUE_STD] = g_std * factorial / bench.scale[q - start]
             row += 1
         at += count
     return row
@@ -288,7 +276,7 @@ def find_directions(
         Set to non-zero by another thread to end the work.
     traces, slots, out
         As `fit_chunk` leaves them; ``counts`` are filled in.
-    rows : (>= C sum of orders, COLUMNS) float64
+    rows : (>= C sum of orders, PLAIN or COLUMNS) float64
         Receives the directions of the half circle, order by order and, in each, point by point.
 
     Returns
@@ -310,6 +298,6 @@ def find_directions(
             total = _bracket(start, end, j, order, column, traces, slots, out, tables, bench)
             polish(bench.table, order, total)
             factorial = tables.factorial[order]
-            row = _store(start, end, order, entry, factorial, traces, slots, out, bench, row, rows)
+            row = _store(start, end, order, entry, factorial, traces, bench, row, rows)
         entry += (order + 1) * (order + 1)
     return row

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from pdtheory.pointset.kernels.jit import Array, IntArray, kernel
+from pdtheory.pointset.kernels.jit import Array, IntArray, inner, kernel
 from pdtheory.pointset.kernels.lanes import LANES
 
 #: Columns of the numbers of a point: the frame that is handed out, row by row; radius, degree used,
@@ -57,6 +57,15 @@ def make_found(size: int, orders: int, columns: int) -> Found:
     )
 
 
+@inner
+def scale_of_order(radius: float, order: int) -> float:
+    """Return R^(k-1), which makes coefficients of order k dimensionless."""
+    scale = 1.0
+    for _ in range(order - 1):
+        scale *= radius
+    return scale
+
+
 #: Numbers behind the covariances of a point that may be read and overwritten.
 SPARE = 2 * LANES
 
@@ -80,53 +89,80 @@ class Traces(NamedTuple):
     covariance: Any
 
 
-#: Columns of the rows of directions, which stand order by order and, in each, point by point. Only
-#: those of the half circle have rows; what they hold is told by :class:`OrderDirections`.
-ANGLE, EIGENVALUE, STRENGTH, ANGLE_STD, EIGENVALUE_STD = range(5)
-VECTOR, KIND, COLUMNS = 5, 8, 9
+#: Columns of the rows of directions, which stand order by order and, in each, point by point: angle,
+#: its cosine and sine, g_k in units of the radius, kind; with error bars also the standard deviations
+#: of angle and E-eigenvalue. Only directions of the half circle have rows.
+ANGLE, COSINE, SINE, VALUE, KIND, PLAIN = range(6)
+ANGLE_STD, EIGENVALUE_STD, COLUMNS = 5, 6, 7
+
+
+def row_columns(uncertainty: bool) -> int:
+    """Return the number of columns of the rows."""
+    return COLUMNS if uncertainty else PLAIN
 
 
 @kernel
 def place(
     rows: Array,
-    odd: bool,
+    order: int,
+    factorial: float,
     firsts: IntArray,
     offsets: IntArray,
-    numbers: Array,
+    points: Array,
+    angles: Array,
+    values: Array,
     vectors: Array,
     kinds: Any,
+    deviations: Array,
 ) -> None:
     """Bring rows to where they belong: at each point the half circle, then the opposite directions.
 
     Parameters
     ----------
-    rows : (>= sum of counts, COLUMNS) float64
+    rows : (>= sum of counts, PLAIN or COLUMNS) float64
         Directions of one order at Q points; those of a point follow one another.
-    odd : bool
-        Whether the order is odd, so that opposite directions have opposite eigenvalues.
+    order : int
+        The order k.
+    factorial : float
+        k!.
     firsts : (Q,) int64
         Which row is the first of each point.
     offsets : (Q + 1,) int64
         The directions of point q are the entries offsets[q]..offsets[q + 1] of what follows.
-    numbers : (VECTOR, M) float64
-        Receives the first columns.
+    points : (Q, NUMBERS) float64
+        The numbers of the points.
+    angles : (M,) float64
+        Receives the angles.
+    values : (2, M) float64
+        Receives E-eigenvalues and strengths.
     vectors : (M, 3) float64
         Receives the vectors.
     kinds : (M,) int8
         Receives the kinds.
+    deviations : (2, M) float64
+        Receives the standard deviations, if the rows have them.
     """
+    odd = order % 2 == 1
+    uncertain = rows.shape[1] > PLAIN
     for q in range(len(firsts)):
         count = (offsets[q + 1] - offsets[q]) // 2
+        unit = factorial / scale_of_order(points[q, RADIUS], order)
         for half in range(2):
             way = 1.0 - 2.0 * half
             sign = way if odd else 1.0
             to = offsets[q] + half * count
             for row in range(firsts[q], firsts[q] + count):
-                for column in range(VECTOR):
-                    numbers[column, to] = rows[row, column]
-                numbers[ANGLE, to] += half * np.pi
-                numbers[EIGENVALUE, to] *= sign
+                c = way * rows[row, COSINE]
+                s = way * rows[row, SINE]
                 for axis in range(3):
-                    vectors[to, axis] = way * rows[row, VECTOR + axis]
+                    first = points[q, FRAME + axis]
+                    vectors[to, axis] = c * first + s * points[q, FRAME + 3 + axis]
+                angles[to] = rows[row, ANGLE] + half * np.pi
+                value = sign * rows[row, VALUE]
+                values[0, to] = value * unit
+                values[1, to] = abs(value)
                 kinds[to] = np.int8(sign * rows[row, KIND])
+                if uncertain:
+                    deviations[0, to] = rows[row, ANGLE_STD]
+                    deviations[1, to] = rows[row, EIGENVALUE_STD]
                 to += 1
