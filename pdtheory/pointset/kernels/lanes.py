@@ -167,6 +167,10 @@ class Lanes:
         """The larger of two numbers, or those in all lanes."""
         return self.builder.select(self.builder.fcmp_ordered(">", a, b), a, b)
 
+    def smaller(self, a: Any, b: Any) -> Any:
+        """The smaller of two numbers, or those in all lanes."""
+        return self.builder.select(self.builder.fcmp_ordered("<", a, b), a, b)
+
     def largest(self, vector: Any) -> Any:
         """The largest number in a vector."""
         return reduce(self.larger, [self.lane(vector, number) for number in range(LANES)])

@@ -2,9 +2,11 @@
 
 With g(theta) = sum_n phi_n e^{i n theta}, the angles are the zeros of h = g'. On an interval of
 width d the linear interpolant of a function differs from it by at most d^2 / 8 times the maximum of
-its second derivative, which the coefficients bound. So from the values at both ends one can certify
-that h has no zero, or that h' has none and h is monotone. Intervals where neither holds are halved.
-Order 2 has one frequency besides the constant, and its angles a formula.
+its second derivative, which the coefficients bound, and the cubic one, of values and slopes at both
+ends, by d^4 / 384 times the fourth. The cubic lies between its least and largest coefficient over
+Bernstein's polynomials. So from the ends one can certify that h has no zero, or that h' has none
+and h is monotone. Intervals where neither holds are halved. Order 2 has one frequency besides the
+constant, and its angles a formula.
 """
 
 from __future__ import annotations
@@ -79,30 +81,65 @@ def _sample(
 
 
 @emit
-def _find_candidates(to: Lanes, samples: Rows, clear: Any, intervals: Rows) -> float:
+def _find_candidates(to: Lanes, samples: Rows, width: Any, error: Any, intervals: Rows) -> float:
     """Write the numbers of the intervals before the last one that may hold zeros; count them.
 
-    Such an interval ends between values of different signs, or with one not larger than `clear`.
+    Cubic interpolants are wrong by up to `error`.
     """
     build = to.builder
-    zero, limit = to.constant(0.0), to.spread(clear)
-    lowest = to.subtract(zero, limit)
+    third, limit = to.spread(build.fdiv(width, to.real(3.0))), to.spread(error)
+    lowest = to.subtract(to.constant(0.0), limit)
     place = to.variable(to.integer(0))
     with to.count(0, SAMPLES, LANES) as i:
-        ends = [to.load(samples.at(0, i)), to.load(samples.at(0, to.plus(i, 1)))]
-        negative = [build.fcmp_ordered("<", value, zero) for value in ends]
-        small = [
-            build.and_(
-                build.fcmp_ordered("<=", lowest, value), build.fcmp_ordered("<=", value, limit)
-            )
-            for value in ends
-        ]
-        doubtful = build.or_(build.xor(*negative), build.or_(*small))
+        (ha, da), (hb, db) = (
+            [to.load(samples.at(row, to.plus(i, end))) for row in range(2)] for end in range(2)
+        )
+        inner = to.add(to.times(da, third), ha), to.subtract(hb, to.times(db, third))
+        above = to.larger(to.larger(ha, hb), to.larger(*inner))
+        below = to.smaller(to.smaller(ha, hb), to.smaller(*inner))
+        doubtful = build.and_(
+            build.fcmp_ordered("<=", below, limit), build.fcmp_ordered(">=", above, lowest)
+        )
         doubtful = build.and_(doubtful, to.below(to.minus(SAMPLES - 1, i)))
         numbers = to.add(to.sequence(1), to.spread(build.sitofp(i, to.real(0.0).type)))
         to.pack([numbers], doubtful, [intervals.at(to.get(place))])
         to.put(to.plus(to.get(place), to.number(doubtful)), place)
     return build.sitofp(to.get(place), to.real(0.0).type)
+
+
+@inner
+def _empty(
+    ha: float, hb: float, da: float, db: float, d: float, third: float, fifth: float, floor: float
+) -> bool:
+    """Whether h certainly has no zero on an interval of width d."""
+    if (ha < 0.0) != (hb < 0.0):
+        return False
+    if min(abs(ha), abs(hb)) > third * d * d / 8.0:
+        return True
+    a = ha + da * d / 3.0
+    b = hb - db * d / 3.0
+    error = fifth * d * d * d * d / 384.0 + floor
+    return min(min(ha, hb), min(a, b)) > error or max(max(ha, hb), max(a, b)) < -error
+
+
+@inner
+def _monotone(
+    ha: float, hb: float, da: float, db: float, d: float, fourth: float, fifth: float, floor: float
+) -> bool:
+    """Whether h' certainly has no zero on an interval of width d.
+
+    The error of the interpolant vanishes at both ends, so its derivative does there and, by Rolle's
+    theorem, somewhere between: it is at most max |h''''| / 6 times the maximum of the product of
+    the three distances, 4 d^3 / 27.
+    """
+    if not da * db > 0.0:
+        return False
+    least = min(abs(da), abs(db))
+    if least > fourth * d * d / 8.0:
+        return True
+    middle = 3.0 * (hb - ha) / d - da - db
+    error = fifth * d * d * d * 2.0 / 81.0 + 6.0 * floor / d
+    return da * middle > 0.0 and min(least, abs(middle)) > error
 
 
 @inner
@@ -209,11 +246,13 @@ def bracket_angles(
     parity = order % 2
     third = 0.0  # bound on |h''|
     fourth = 0.0  # bound on |h'''|
+    fifth = 0.0  # bound on |h''''|
     for j in range(order // 2 + 1):
         n = 2.0 * j + parity
-        size = 2.0 * np.sqrt(re[j] * re[j] + im[j] * im[j])
-        third += n * n * n * size
-        fourth += n * n * n * n * size
+        size = 2.0 * n * n * n * np.sqrt(re[j] * re[j] + im[j] * im[j])
+        third += size
+        fourth += n * size
+        fifth += n * n * size
     found = begin
     if third == 0.0:
         return 0
@@ -223,14 +262,13 @@ def bracket_angles(
         _note_axes(re, im, table, kind, begin)
         return 2
     width = np.pi / SAMPLES
-    clear = third * width * width / 8.0
-    certain = fourth * width * width / 8.0
+    error = fifth * width * width * width * width / 384.0 + floor
     _sample(re, im, order, cosines, sines, samples)
     # h(theta + pi) = (-1)^k h(theta), to the bit, so that a zero at 0 is found once.
     samples[0, SAMPLES] = -samples[0, 0] if parity else samples[0, 0]
     samples[1, SAMPLES] = -samples[1, 0] if parity else samples[1, 0]
     multiple = open_end = False  # whether there is a multiple zero, and whether it is the last one
-    count = int(_find_candidates(samples, clear, intervals))
+    count = int(_find_candidates(samples, width, error, intervals))
     intervals[count] = SAMPLES
     for i in range(count + 1):
         if found == begin + order:
@@ -241,7 +279,7 @@ def bracket_angles(
         da = samples[1, sample - 1]
         db = samples[1, sample]
         simple = (ha < 0.0) != (hb < 0.0) and sample < SAMPLES
-        if simple and da * db > 0.0 and min(abs(da), abs(db)) > certain:
+        if simple and _monotone(ha, hb, da, db, width, fourth, fifth, floor):
             low = (sample - 1) * width
             _note(re, im, order, low, low + width, ha, hb, True, hb < 0.0, table, kind, found)
             found += 1
@@ -268,8 +306,8 @@ def bracket_angles(
             if sample == SAMPLES and high >= SAMPLES * width and hb == 0.0:
                 negative_b = parity == 1
             change = negative_a != negative_b
-            none = not change and min(abs(ha), abs(hb)) > third * d * d / 8.0
-            monotone = da * db > 0.0 and min(abs(da), abs(db)) > fourth * d * d / 8.0
+            none = not change and _empty(ha, hb, da, db, d, third, fifth, floor)
+            monotone = _monotone(ha, hb, da, db, d, fourth, fifth, floor)
             # Where both ends may be zero, their signs mean nothing.
             monotone = monotone and max(abs(ha), abs(hb)) > floor
             if not none and not monotone and d > _FINEST:
