@@ -11,7 +11,7 @@ import numba
 import numpy as np
 import numpy.typing as npt
 
-from pdtheory.pointset.kernels.linking import Part, Whole, compile_as
+from pdtheory.pointset.kernels.linking import Part, Pipeline, Whole, compile_as
 
 Array = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int64]
@@ -30,7 +30,7 @@ def _source_stamp() -> tuple[float, int]:
 
 
 def _compile(function: F, **extra: Any) -> F:
-    options: dict[str, Any] = {"nogil": True, "fastmath": _FAST, "error_model": "numpy", **extra}
+    options: dict[str, Any] = {"nogil": True, "fastmath": _FAST, "error_model": "numpy", "pipeline_class": Pipeline, "_nrt": False, **extra}
     try:
         compiled = numba.njit(**{"cache": True, **options})(function)
     except RuntimeError:

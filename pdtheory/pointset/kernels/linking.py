@@ -15,12 +15,47 @@ from typing import Any, TypeVar
 from llvmlite.binding import Linkage
 from numba import types
 from numba.core.codegen import JITCodeLibrary
+from numba.core.compiler import CompilerBase, DefaultPassBuilder
 from numba.core.compiler_lock import global_compiler_lock
 from numba.core.registry import cpu_target
 
 F = TypeVar("F", bound=Callable[..., Any])
 
-_OPERATORS = frozenset(value for value in vars(operator).values() if callable(value))
+#: What makes of its arguments' types always the same.
+_OPERATORS = frozenset(
+    {bool, int, min, max, abs, *(value for value in vars(operator).values() if callable(value))}
+)
+
+
+#: What Numba goes through for features that no kernel uses: closures, inlined functions, rewritten
+#: expressions of arrays, loops over tuples, exceptions with values, listings with types.
+_NEEDLESS = frozenset(
+    {
+        "with_lifting",
+        "inline_closure_likes",
+        "Rewrite dynamic raises",
+        "make_function_op_code_to_jit_function",
+        "inline_inlinables",
+        "find_literally",
+        "literal_unroll",
+        "LiteralPropagation",
+        "inline_overloads",
+        "nopython_rewrites",
+        "nopython_supported_feature_validation",
+        "annotate_types",
+    }
+)
+
+
+class Pipeline(CompilerBase):
+    """The passes that kernels need."""
+
+    def define_pipelines(self) -> list[Any]:
+        """Return the one way to compile."""
+        manager = DefaultPassBuilder.define_nopython_pipeline(self.state)
+        manager.passes = [(one, text) for one, text in manager.passes if one._name not in _NEEDLESS]
+        manager.finalize()
+        return [manager]
 
 
 class _Unset:
@@ -73,6 +108,12 @@ class Whole(JITCodeLibrary):
     """Code of a kernel, with all its parts."""
 
     _linking_libraries: list[Any]
+
+    def _optimize_final_module(self) -> None:
+        # Numba does that twice, cheaply at first, to find counts of references that cancel.
+        found = self._codegen._module_pass_manager()
+        passes, *builder = found if isinstance(found, tuple) else (found,)
+        passes.run(self._final_module, *builder)
 
     def finalize(self) -> None:
         """Link the parts and make machine code of the whole."""
