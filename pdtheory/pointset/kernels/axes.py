@@ -74,19 +74,25 @@ def guess_axes(S: Array, Q: Array) -> bool:
     bool
         False, and nothing is written, if the points lie about a line.
     """
-    xx = S[1, 1] * S[2, 2] - S[1, 2] * S[1, 2]
-    yy = S[0, 0] * S[2, 2] - S[0, 2] * S[0, 2]
-    zz = S[0, 0] * S[1, 1] - S[0, 1] * S[0, 1]
-    xy = S[0, 2] * S[1, 2] - S[0, 1] * S[2, 2]
-    xz = S[0, 1] * S[1, 2] - S[0, 2] * S[1, 1]
-    yz = S[0, 1] * S[0, 2] - S[0, 0] * S[1, 2]
+    s00 = S[0, 0]
+    s01 = S[0, 1]
+    s02 = S[0, 2]
+    s11 = S[1, 1]
+    s12 = S[1, 2]
+    s22 = S[2, 2]
+    xx = s11 * s22 - s12 * s12
+    yy = s00 * s22 - s02 * s02
+    zz = s00 * s11 - s01 * s01
+    xy = s02 * s12 - s01 * s22
+    xz = s01 * s12 - s02 * s11
+    yz = s01 * s02 - s00 * s12
     x, y, z = xz, yz, zz
     if xx > yy and xx > zz:
         x, y, z = xx, xy, xz
     elif yy > zz:
         x, y, z = xy, yy, yz
     square = x * x + y * y + z * z
-    total = S[0, 0] + S[1, 1] + S[2, 2]
+    total = s00 + s11 + s22
     total *= total
     if not square > 1e-16 * total * total:
         return False
@@ -132,15 +138,19 @@ def follow_axes(S: Array, A: Array, Q: Array) -> bool:
     """
     r00 = r01 = r02 = r11 = r12 = r22 = 0.0
     for i in range(3):
-        x = S[i, 0] * Q[0, 0] + S[i, 1] * Q[1, 0] + S[i, 2] * Q[2, 0]
-        y = S[i, 0] * Q[0, 1] + S[i, 1] * Q[1, 1] + S[i, 2] * Q[2, 1]
-        z = S[i, 0] * Q[0, 2] + S[i, 1] * Q[1, 2] + S[i, 2] * Q[2, 2]
-        r00 += Q[i, 0] * x
-        r01 += Q[i, 0] * y
-        r02 += Q[i, 0] * z
-        r11 += Q[i, 1] * y
-        r12 += Q[i, 1] * z
-        r22 += Q[i, 2] * z
+        for j in range(3):
+            value = S[i, j]
+            u0 = value * Q[j, 0]
+            u1 = value * Q[j, 1]
+            u2 = value * Q[j, 2]
+            v0 = Q[i, 0]
+            v1 = Q[i, 1]
+            r00 += v0 * u0
+            r01 += v0 * u1
+            r02 += v0 * u2
+            r11 += v1 * u1
+            r12 += v1 * u2
+            r22 += Q[i, 2] * u2
     low = r22
     x = y = 0.0
     z = 1.0

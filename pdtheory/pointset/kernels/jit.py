@@ -30,7 +30,15 @@ def _source_stamp() -> tuple[float, int]:
 
 
 def _compile(function: F, **extra: Any) -> F:
-    options: dict[str, Any] = {"nogil": True, "fastmath": _FAST, "error_model": "numpy", "pipeline_class": Pipeline, "_nrt": False, **extra}
+    options: dict[str, Any] = {
+        "nogil": True,
+        "fastmath": _FAST,
+        "error_model": "numpy",
+        "pipeline_class": Pipeline,
+        # Kernels make no arrays, so no references need to be counted.
+        "_nrt": False,
+        **extra,
+    }
     try:
         compiled = numba.njit(**{"cache": True, **options})(function)
     except RuntimeError:

@@ -46,11 +46,29 @@ def degree_start(top: int, degree: int) -> int:
 
 
 @inner
-def assemble(cloud: Array, weights: int, n: int, degree: int, w: Any) -> None:
+def assemble(
+    cloud: Array,
+    weights: int,
+    n: int,
+    degree: int,
+    heights: int,
+    gram: Array,
+    diagonal: Array,
+    pivots: Array,
+    inverses: Array,
+    w: Any,
+) -> None:
+    """Factor a Gram matrix with the given row of weights; `heights` is their degree, or -1."""
+    # The code of the factorization is long, so all that need it call this function.
+    sum_moments(cloud, weights, n, 2 * degree, heights, w)
+    fill_gram(w.sums, w.heights, degree, w.ordered, gram)
+    factor(gram, (degree + 1) * (degree + 2) // 2, diagonal, pivots, inverses)
+
+
+@inner
+def set_up(cloud: Array, weights: int, n: int, degree: int, w: Any) -> None:
     """Factor the normal equations of a fit with the given row of weights."""
-    sum_moments(cloud, weights, n, 2 * degree, degree, w)
-    fill_gram(w.sums, w.heights, degree, w.ordered, w.G)
-    factor(w.G, (degree + 1) * (degree + 2) // 2, w.diagonal, w.pivots, w.inverses)
+    assemble(cloud, weights, n, degree, degree, w.G, w.diagonal, w.pivots, w.inverses, w)
 
 
 @inner
@@ -73,7 +91,7 @@ def regress(cloud: Array, weights: int, n: int, degree: int, w: Any) -> tuple[in
     (int, float)
         The degree reached and its smallest relative pivot.
     """
-    assemble(cloud, weights, n, degree, w)
+    set_up(cloud, weights, n, degree, w)
     reached = -1
     worst = 1.0
     start = degree_start(degree, 0)

@@ -89,9 +89,9 @@ class Traces(NamedTuple):
     covariance: Any
 
 
-#: Columns of the rows of directions, which stand order by order and, in each, point by point: angle,
-#: its cosine and sine, g_k in units of the radius, kind; with error bars also the standard deviations
-#: of angle and E-eigenvalue. Only directions of the half circle have rows.
+#: Columns of the rows of directions, which stand order by order and, in each, point by point: the
+#: angle, its cosine and sine, g_k in units of the radius, the kind; with error bars also standard
+#: deviations of angle and E-eigenvalue. Only directions of the half circle have rows.
 ANGLE, COSINE, SINE, VALUE, KIND, PLAIN = range(6)
 ANGLE_STD, EIGENVALUE_STD, COLUMNS = 5, 6, 7
 

@@ -18,10 +18,10 @@ from pdtheory.pointset.kernels.jit import Array, inner
 from pdtheory.pointset.kernels.lanes import LANES, Lanes, Rows, emit
 from pdtheory.pointset.kernels.moments import DUAL, GAP, HEIGHT, RESIDUAL, REWEIGHT, WEIGHT, Z
 from pdtheory.pointset.kernels.regression import (
-    assemble,
     degree_start,
     fill_residuals,
     misfit,
+    set_up,
     solve,
 )
 from pdtheory.pointset.kernels.tilting import shift
@@ -126,7 +126,7 @@ def fit_robustly(cloud: Array, n: int, fit: Fit, w: Any) -> Fit:
         smooth = max(part * total / weight, ROUNDING)
         part = max(part * SMOOTHER, SMOOTHEST)
         _pose(cloud, n, smooth)
-        assemble(cloud, REWEIGHT, n, degree, w)
+        set_up(cloud, REWEIGHT, n, degree, w)
         solve(degree, fit.degree, w)
         fill_residuals(cloud, n, degree, w)
         _survey(cloud, n, smooth, w.spread)

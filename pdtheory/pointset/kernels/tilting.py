@@ -153,26 +153,30 @@ def slope_spread(degree: int, x: float, y: float, pivot: float, enough: float, w
     the gradient of a monomial is at most its degree.
     """
     count = degree_start(degree, 0)
+    inverses = w.inverses
     # The least eigenvalue of a scaled matrix may be somewhat below its smallest pivot.
     rough = ROUGH / pivot
     total = 0.0
     for i in range(1, count + 1):
-        total += w.inverses[i] * w.inverses[i]
+        total += inverses[i] * inverses[i]
     total *= rough * degree * degree
     if total < enough * enough:
         return np.sqrt(total)
     _fill_gradients(degree, x, y, w)
+    by_x = w.v
+    by_y = w.y
     total = 0.0
     for i in range(1, count + 1):
-        total += (w.v[i] * w.v[i] + w.y[i] * w.y[i]) * w.inverses[i] * w.inverses[i]
+        total += (by_x[i] * by_x[i] + by_y[i] * by_y[i]) * inverses[i] * inverses[i]
     total *= rough
     if total < enough * enough:
         return np.sqrt(total)
-    solve_transposed(w.G, count, w.inverses, w.v, w.step)
-    solve_transposed(w.G, count, w.inverses, w.y, w.v)
+    solve_transposed(w.G, count, inverses, by_x, w.step)
+    solve_transposed(w.G, count, inverses, by_y, by_x)
+    first = w.step
     total = 0.0
     for i in range(1, count + 1):
-        total += w.step[i] * w.step[i] + w.v[i] * w.v[i]
+        total += first[i] * first[i] + by_x[i] * by_x[i]
     return np.sqrt(total)
 
 

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from pdtheory.pointset.kernels.cholesky import PANEL, factor, fill_gram
+from pdtheory.pointset.kernels.cholesky import PANEL
 from pdtheory.pointset.kernels.fit import Fit
 from pdtheory.pointset.kernels.jit import Array, inner
 from pdtheory.pointset.kernels.lanes import LANES, Lanes, Rows, emit
@@ -24,9 +24,8 @@ from pdtheory.pointset.kernels.moments import (
     RESIDUAL,
     WEIGHT,
     multiply_rows,
-    sum_moments,
 )
-from pdtheory.pointset.kernels.regression import degree_start, typical_residual
+from pdtheory.pointset.kernels.regression import assemble, degree_start, typical_residual
 from pdtheory.pointset.kernels.tables import ROWS, SIDE
 from pdtheory.pointset.kernels.tilting import add_product, spread_out
 
@@ -194,15 +193,11 @@ def prepare_covariances(cloud: Array, n: int, fit: Fit, robust: Any, tables: Any
     count = degree_start(top, 0)
     if robust is not None:
         # The covariance of an l1 fit holds the Gram matrix of the weights before reweighting.
-        sum_moments(cloud, WEIGHT, n, 2 * top, -1, w)
-        fill_gram(w.sums, w.heights, top, w.ordered, w.G)
-        factor(w.G, count, w.diagonal, w.pivots, w.inverses)
+        assemble(cloud, WEIGHT, n, top, -1, w.G, w.diagonal, w.pivots, w.inverses, w)
         for i in range(1, first):
             w.inverses[i] = 0.0
     multiply_rows(cloud, WEIGHT, WEIGHT, n, PRODUCT)
-    sum_moments(cloud, PRODUCT, n, 2 * top, -1, w)
-    fill_gram(w.sums, w.heights, top, w.ordered, w.S)
-    factor(w.S, count, w.step, w.y, w.spare)
+    assemble(cloud, PRODUCT, n, top, -1, w.S, w.step, w.y, w.spare, w)
     rows = (count + PANEL - 1) // PANEL * PANEL
     for i in range(1, rows + 1):
         behind = rows + 1
