@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+import gc
 import operator
 import subprocess
 import sys
+from types import SimpleNamespace
 from typing import Any
 
 import numba
+import numpy as np
 import pytest
+from numba.core.compiler import DefaultPassBuilder
 from numba.core.errors import TypingError
 from numba.core.registry import cpu_target
 
-from pdtheory.pointset.kernels.jit import inner
+from pdtheory.pointset.kernels.jit import inner, kernel
+from pdtheory.pointset.kernels.linking import NEEDLESS
 
 CONTEXT = cpu_target.typing_context
 
@@ -54,6 +59,68 @@ def test_numba_is_left_as_it_was():
         run(2.0)
     assert "resolve_function_type" not in vars(CONTEXT)
     assert cpu_target.target_context.codegen()._library_class is library
+
+
+def test_what_is_left_out_are_passes_of_numba():
+    """A pass with another name would come back without a word."""
+    flags = SimpleNamespace(
+        no_rewrites=False, enable_ssa=True, auto_parallel=SimpleNamespace(enabled=False)
+    )
+    state = SimpleNamespace(func_ir=None, flags=flags)
+    passes = DefaultPassBuilder.define_nopython_pipeline(state).passes
+    assert {one._name for one, _ in passes} >= NEEDLESS
+
+
+def test_kernels_count_no_references():
+    @kernel
+    def first(values: Any) -> float:
+        own = values
+        return own[0]
+
+    values = np.array([2.5, 3.5])
+    assert first(values) == 2.5
+    (code,) = first.inspect_llvm().values()
+    assert "NRT_incref" not in code
+    before = sys.getrefcount(values)
+    first(values)
+    assert sys.getrefcount(values) == before
+
+
+def test_garbage_is_collected_after_compiling_and_not_before():
+    seen = []
+
+    def note(phase: str, _: Any) -> None:
+        seen.append(phase)
+
+    @inner
+    def cube(x: float) -> float:
+        return x * x * x
+
+    @kernel
+    def run(x: float) -> float:
+        total = 0.0
+        for i in range(3):
+            for j in range(3):
+                total += cube(x + i) * cube(x - j)
+        return total
+
+    thresholds = gc.get_threshold()
+    gc.callbacks.append(note)
+    try:
+        gc.set_threshold(5000)
+        run.compile((numba.float64,))
+        during = len(seen)
+        assert gc.isenabled()
+    finally:
+        gc.set_threshold(*thresholds)
+        gc.callbacks.remove(note)
+    assert during <= 2
+    gc.disable()
+    try:
+        run.compile((numba.int64,))
+        assert not gc.isenabled()
+    finally:
+        gc.enable()
 
 
 def test_threads_that_compile_leave_numba_as_it_was(tmp_path):

@@ -30,7 +30,7 @@ _OPERATORS = frozenset(
 
 #: What Numba goes through for features that no kernel uses: closures, inlined functions, rewritten
 #: expressions of arrays, loops over tuples, exceptions with values, listings with types.
-_NEEDLESS = frozenset(
+NEEDLESS = frozenset(
     {
         "with_lifting",
         "inline_closure_likes",
@@ -54,7 +54,7 @@ class Pipeline(CompilerBase):
     def define_pipelines(self) -> list[Any]:
         """Return the one way to compile."""
         manager = DefaultPassBuilder.define_nopython_pipeline(self.state)
-        manager.passes = [(one, text) for one, text in manager.passes if one._name not in _NEEDLESS]
+        manager.passes = [(one, text) for one, text in manager.passes if one._name not in NEEDLESS]
         manager.finalize()
         return [manager]
 
