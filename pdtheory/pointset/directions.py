@@ -113,6 +113,7 @@ class OrderDirections:
         +1 maximum, -1 minimum, 0 inflection of the signed g_k.
     angle_std, eigenvalue_std : (M,) float64
         Standard deviations that follow from the residuals of the fit (radians; unit of lambda).
+        NaN, and not to be written to, where none were asked for.
     isotropic : (P,) bool
         True where g_k is constant to within rounding, so that every direction is an E-eigenvector
         and none is listed.
