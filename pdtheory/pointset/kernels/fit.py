@@ -172,15 +172,16 @@ def prefit(
     reference: Array,
     settings: Settings,
     inside: int,
+    careful: bool,
     w: Any,
 ) -> None:
-    """Tilt the frame by the gradient of a fit of low degree.
+    """Tilt the frame by the gradient of a fit of low degree to the points inside the radius.
 
-    With `inside` points, not 0, only if these tell it.
+    If that is to be careful, only where these tell it.
     """
     cx, cy, weight = project(cloud, points, n, settings.planar, w)
     reached, pivot = regress(cloud, WEIGHT, n, degree, w)
-    if inside > 0:
+    if careful:
         noise = noise_of(cloud, n, misfit(cloud, n, degree, weight, w), settings)
         if not slope_known(degree, reached, inside, noise, pivot, cx, cy, w):
             return
@@ -231,7 +232,7 @@ def fit_point(
     if tangent:
         copy_frame(w.frame, w.kept)
         if first > 1:
-            prefit(cloud, points, n, first, reference, settings, 0, w)
+            prefit(cloud, points, n, first, reference, settings, inside, False, w)
     turns = RETILTS if tangent else 0
     turn = 0
     before = np.inf
@@ -257,7 +258,7 @@ def fit_point(
                 tangent = False
                 if turn == 0 and first > 1:
                     # A lower degree may tell the plane, and its principal axes always do.
-                    prefit(cloud, points, n, first, reference, settings, inside, w)
+                    prefit(cloud, points, n, first, reference, settings, inside, True, w)
             continue
         if turn == turns or not tilt_matters(w.c, degree, noise, w.norms):
             break
