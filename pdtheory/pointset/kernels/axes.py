@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from pdtheory.pointset.kernels.jit import Array, inner
@@ -10,6 +12,17 @@ from pdtheory.pointset.kernels.jit import Array, inner
 CONVERGED = 1e-15
 #: Steps towards an axis that is a few degrees away; after two, a point in six is not there.
 STEPS = 3
+
+
+class Spread(NamedTuple):
+    """A symmetric 3x3 matrix: the covariances of x, y and z."""
+
+    xx: float
+    xy: float
+    xz: float
+    yy: float
+    yz: float
+    zz: float
 
 
 @inner
@@ -39,14 +52,19 @@ def _rotate(A: Array, Q: Array, p: int, q: int, r: int) -> None:
 
 
 @inner
-def sorted_axes(S: Array, A: Array, Q: Array) -> None:
+def sorted_axes(S: Spread, A: Array, Q: Array) -> None:
     """Diagonalize a matrix by Jacobi rotations.
 
     `A` is left diagonal, variances descending, and its axes are the columns of `Q`.
     """
+    A[0, 0] = S.xx
+    A[1, 1] = S.yy
+    A[2, 2] = S.zz
+    A[0, 1] = A[1, 0] = S.xy
+    A[0, 2] = A[2, 0] = S.xz
+    A[1, 2] = A[2, 1] = S.yz
     for i in range(3):
         for j in range(3):
-            A[i, j] = S[i, j]
             Q[i, j] = 1.0 if i == j else 0.0
     for _ in range(30):
         off = abs(A[0, 1]) + abs(A[0, 2]) + abs(A[1, 2])
@@ -63,7 +81,7 @@ def sorted_axes(S: Array, A: Array, Q: Array) -> None:
 
 
 @inner
-def guess_axes(S: Array, Q: Array) -> bool:
+def guess_axes(S: Spread, Q: Array) -> bool:
     """Write orthogonal axes, the last about that of least variance, to the columns of `Q`.
 
     In the adjugate matrix an axis counts as much as the product of the other two variances, so the
@@ -74,25 +92,19 @@ def guess_axes(S: Array, Q: Array) -> bool:
     bool
         False, and nothing is written, if the points lie about a line.
     """
-    s00 = S[0, 0]
-    s01 = S[0, 1]
-    s02 = S[0, 2]
-    s11 = S[1, 1]
-    s12 = S[1, 2]
-    s22 = S[2, 2]
-    xx = s11 * s22 - s12 * s12
-    yy = s00 * s22 - s02 * s02
-    zz = s00 * s11 - s01 * s01
-    xy = s02 * s12 - s01 * s22
-    xz = s01 * s12 - s02 * s11
-    yz = s01 * s02 - s00 * s12
+    xx = S.yy * S.zz - S.yz * S.yz
+    yy = S.xx * S.zz - S.xz * S.xz
+    zz = S.xx * S.yy - S.xy * S.xy
+    xy = S.xz * S.yz - S.xy * S.zz
+    xz = S.xy * S.yz - S.xz * S.yy
+    yz = S.xy * S.xz - S.xx * S.yz
     x, y, z = xz, yz, zz
     if xx > yy and xx > zz:
         x, y, z = xx, xy, xz
     elif yy > zz:
         x, y, z = xy, yy, yz
     square = x * x + y * y + z * z
-    total = s00 + s11 + s22
+    total = S.xx + S.yy + S.zz
     total *= total
     if not square > 1e-16 * total * total:
         return False
@@ -116,7 +128,17 @@ def guess_axes(S: Array, Q: Array) -> bool:
 
 
 @inner
-def follow_axes(S: Array, A: Array, Q: Array) -> bool:
+def _times(S: Spread, x: float, y: float, z: float) -> tuple[float, float, float]:
+    """Return the product of a matrix and a vector."""
+    return (
+        S.xx * x + S.xy * y + S.xz * z,
+        S.xy * x + S.yy * y + S.yz * z,
+        S.xz * x + S.yz * y + S.zz * z,
+    )
+
+
+@inner
+def follow_axes(S: Spread, A: Array, Q: Array) -> bool:
     """Find the axes of a matrix that are close to those in `Q`, to which they go.
 
     The normal is an eigenvector by Rayleigh quotient iteration, whose error is cubed in each step;
@@ -124,7 +146,7 @@ def follow_axes(S: Array, A: Array, Q: Array) -> bool:
 
     Parameters
     ----------
-    S : (3, 3) float64
+    S : Spread
         The matrix.
     A : (3, 3) float64
         Its diagonal receives the variances.
@@ -136,21 +158,24 @@ def follow_axes(S: Array, A: Array, Q: Array) -> bool:
     bool
         False, and nothing is written, if the normal is not so close or not that of least variance.
     """
-    r00 = r01 = r02 = r11 = r12 = r22 = 0.0
-    for i in range(3):
-        for j in range(3):
-            value = S[i, j]
-            u0 = value * Q[j, 0]
-            u1 = value * Q[j, 1]
-            u2 = value * Q[j, 2]
-            v0 = Q[i, 0]
-            v1 = Q[i, 1]
-            r00 += v0 * u0
-            r01 += v0 * u1
-            r02 += v0 * u2
-            r11 += v1 * u1
-            r12 += v1 * u2
-            r22 += Q[i, 2] * u2
+    q00 = Q[0, 0]
+    q10 = Q[1, 0]
+    q20 = Q[2, 0]
+    q01 = Q[0, 1]
+    q11 = Q[1, 1]
+    q21 = Q[2, 1]
+    q02 = Q[0, 2]
+    q12 = Q[1, 2]
+    q22 = Q[2, 2]
+    x, y, z = _times(S, q00, q10, q20)
+    r00 = q00 * x + q10 * y + q20 * z
+    x, y, z = _times(S, q01, q11, q21)
+    r01 = q00 * x + q10 * y + q20 * z
+    r11 = q01 * x + q11 * y + q21 * z
+    x, y, z = _times(S, q02, q12, q22)
+    r02 = q00 * x + q10 * y + q20 * z
+    r12 = q01 * x + q11 * y + q21 * z
+    r22 = q02 * x + q12 * y + q22 * z
     low = r22
     x = y = 0.0
     z = 1.0

@@ -124,7 +124,7 @@ def affordable_degree(n: int, degree: int) -> int:
 def choose_frame(cloud: Array, n: int, reference: Array, settings: Settings, w: Any) -> int:
     """Set ``w.frame`` from the principal axes or the given vector; returns the status."""
     frame = w.frame
-    if not principal_frame(cloud, n, w.B, w.A, w.Q, w.plane, w.spread, w.weights, frame):
+    if not principal_frame(cloud, n, w.A, w.Q, w.plane, w.spread, w.weights, frame):
         return _DEGENERATE
     if settings.frame == FRAME_GIVEN:
         side = square = 0.0

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from pdtheory.pointset.kernels.axes import follow_axes, guess_axes, sorted_axes
+from pdtheory.pointset.kernels.axes import Spread, follow_axes, guess_axes, sorted_axes
 from pdtheory.pointset.kernels.jit import Array, inner
 from pdtheory.pointset.kernels.lanes import LANES, Lanes, Rows, emit
 from pdtheory.pointset.kernels.moments import DX, DY, DZ, WEIGHT
@@ -42,7 +42,6 @@ def _sum_spread(to: Lanes, cloud: Rows, n: Any, plane: Rows, out: Rows) -> None:
 def principal_frame(
     cloud: Array,
     n: int,
-    S: Array,
     A: Array,
     Q: Array,
     plane: Array,
@@ -61,7 +60,7 @@ def principal_frame(
         Points relative to the origin of the frame, and their weights.
     n : int
         Number of points, a multiple of LANES.
-    S, A, Q : (3, 3) float64
+    A, Q : (3, 3) float64
         Scratch.
     plane, sums : (>= 5,), (>= 10 + LANES,) float64
         Scratch.
@@ -85,20 +84,26 @@ def principal_frame(
             for i in range(4):
                 weights[i] = sums[i]
         unit = 1.0 / sums[0]
-        k = 4
-        for i in range(3):
-            for j in range(i, 3):
-                S[i, j] = S[j, i] = sums[k] * unit - (sums[1 + i] * unit) * (sums[1 + j] * unit)
-                k += 1
+        x = sums[1] * unit
+        y = sums[2] * unit
+        z = sums[3] * unit
+        S = Spread(
+            sums[4] * unit - x * x,
+            sums[5] * unit - x * y,
+            sums[6] * unit - x * z,
+            sums[7] * unit - y * y,
+            sums[8] * unit - y * z,
+            sums[9] * unit - z * z,
+        )
         known = turn > 0 or guess_axes(S, Q)
         if not (known and follow_axes(S, A, Q)):
             sorted_axes(S, A, Q)
         if not A[1, 1] > COLLINEAR * A[0, 0]:
             return False
-        plane[3] = 0.0
-        for i in range(3):
-            plane[i] = Q[i, 2]
-            plane[3] += sums[1 + i] * unit * Q[i, 2]
+        plane[0] = Q[0, 2]
+        plane[1] = Q[1, 2]
+        plane[2] = Q[2, 2]
+        plane[3] = x * Q[0, 2] + y * Q[1, 2] + z * Q[2, 2]
         if not A[2, 2] > 1e-24 * A[0, 0]:
             break
         plane[4] = 1.0 / A[2, 2]
