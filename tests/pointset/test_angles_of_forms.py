@@ -65,6 +65,38 @@ def wanted_of(order, c):
     return np.sort([float(angle % mpmath.pi) for angle in on])
 
 
+def product_of_sines(zeros):
+    """phi_n of the form of odd order whose derivative is the product of sin(theta - zero)."""
+    wave = {0: 1.0 + 0.0j}
+    for zero in zeros:
+        terms = {}
+        for n, c in wave.items():
+            for step in (1, -1):
+                part = step * np.exp(-1j * step * zero) / 2j
+                terms[n + step] = terms.get(n + step, 0.0) + c * part
+        wave = terms
+    n = frequencies(len(zeros))
+    return np.array([wave[k] / (1j * k) for k in n])
+
+
+@pytest.mark.parametrize("place", [0.0, np.pi, 38 * np.pi / 64, 11 * np.pi / 64])
+@pytest.mark.parametrize("order", [3, 5, 9, 13])
+def test_two_zeros_that_nearly_agree_are_where_they_are(order, place):
+    """Also at the ends of the intervals that are looked at, and at the end of the half circle."""
+    rng = np.random.default_rng(order)
+    gaps = 10.0 ** rng.uniform(-8.0, -5.5, 200)
+    starts = place + gaps * rng.uniform(-1.5, 0.5, 200)
+    others = np.linspace(0.4, 2.6, order - 2)[None, :] + rng.uniform(-0.1, 0.1, (200, order - 2))
+    others = place + others
+    zeros = np.column_stack([starts, starts + gaps, others])
+    c = np.array([product_of_sines(row) for row in zeros])
+    for row, gap, found in zip(zeros, gaps, angles_of(order, c), strict=True):
+        apart = np.abs((found[:, None] - row[None, :] + np.pi / 2) % np.pi - np.pi / 2)
+        assert apart.min(axis=1).max() < max(10 * gap, 1e-6)
+        assert apart.min(axis=0)[2:].max() < 1e-9
+        assert apart.min(axis=0)[:2].max() < max(10 * gap, 1e-6)
+
+
 @pytest.mark.parametrize("order", range(3, 13))
 def test_no_angle_is_missed_and_none_is_made_up(order):
     c = forms(order, seed=order)

@@ -268,6 +268,8 @@ def bracket_angles(
     samples[0, SAMPLES] = -samples[0, 0] if parity else samples[0, 0]
     samples[1, SAMPLES] = -samples[1, 0] if parity else samples[1, 0]
     multiple = open_end = False  # whether there is a multiple zero, and whether it is the last one
+    first_open = False  # whether it is the first one
+    start = 0.0  # where the last one begins
     count = int(_find_candidates(samples, width, error, intervals))
     intervals[count] = SAMPLES
     for i in range(count + 1):
@@ -284,6 +286,7 @@ def bracket_angles(
             _note(re, im, order, low, low + width, ha, hb, True, hb < 0.0, table, kind, found)
             found += 1
             open_end = False
+            start = low
             continue
         top = 0
         stack[0, 0] = (sample - 1) * width
@@ -337,26 +340,32 @@ def bracket_angles(
                 here = 0.0
                 if change:
                     here = 1.0 if negative_b else -1.0
-                start = table[LOW, found - 1]
                 if not open_end:
                     start = max(start, low - _GAP)
                 end = min(high, low + _GAP) if monotone else high
                 if open_end or change:
                     _widen(table, kind, found - 1, start, end, here)
+                    first_open = first_open or found == begin + 1
                 open_end = not monotone
                 multiple = True
                 continue
             if found == begin + order:
                 break
             _note(re, im, order, low, high, ha, hb, change, negative_b, table, kind, found)
+            start = low
             open_end = not monotone
+            first_open = first_open or (open_end and found == begin)
             multiple = multiple or open_end
             found += 1
     if multiple and found > begin + 1:
-        low = table[LOW, found - 1] - np.pi
-        if table[LOW, begin] - (table[HIGH, found - 1] - np.pi) < _GAP:
+        low = table[LOW, begin]
+        high = table[HIGH, found - 1] - np.pi
+        if low - high < _GAP:
             # A multiple zero at 0, seen from both ends; h(theta - pi) = (-1)^k h(theta).
             found -= 1
             here = -kind[found] if parity else kind[found]
-            _widen(table, kind, begin, low, table[HIGH, begin], here)
+            # Elsewhere in a long interval on either side there is no zero.
+            start = start - np.pi if open_end else max(start - np.pi, high - _GAP)
+            end = table[HIGH, begin] if first_open else min(table[HIGH, begin], low + _GAP)
+            _widen(table, kind, begin, start, end, here)
     return found - begin
