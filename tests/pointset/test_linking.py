@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import operator
+import os
 import subprocess
 import sys
 from types import SimpleNamespace
@@ -16,8 +17,8 @@ from numba.core.compiler import DefaultPassBuilder
 from numba.core.errors import TypingError
 from numba.core.registry import cpu_target
 
-from pdtheory.pointset.kernels.jit import inner, kernel
-from pdtheory.pointset.kernels.linking import NEEDLESS
+from pdtheory.pointset.kernels.jit import _compile, inner
+from pdtheory.pointset.kernels.linking import NEEDLESS, Whole, compile_as
 
 CONTEXT = cpu_target.typing_context
 
@@ -72,11 +73,12 @@ def test_what_is_left_out_are_passes_of_numba():
 
 
 def test_kernels_count_no_references():
-    @kernel
-    def first(values: Any) -> float:
+    def take_first(values: Any) -> float:
         own = values
         return own[0]
 
+    # What comes from a cache cannot be looked at.
+    first = compile_as(Whole, _compile(take_first, cache=False))
     values = np.array([2.5, 3.5])
     assert first(values) == 2.5
     (code,) = first.inspect_llvm().values()
@@ -96,13 +98,14 @@ def test_garbage_is_collected_after_compiling_and_not_before():
     def cube(x: float) -> float:
         return x * x * x
 
-    @kernel
-    def run(x: float) -> float:
+    def sum_up(x: float) -> float:
         total = 0.0
         for i in range(3):
             for j in range(3):
                 total += cube(x + i) * cube(x - j)
         return total
+
+    run = compile_as(Whole, _compile(sum_up, cache=False))
 
     thresholds = gc.get_threshold()
     gc.callbacks.append(note)
@@ -162,3 +165,24 @@ print(codegen._library_class is JITCodeLibrary, kinds == {JITCodeLibrary})
     file.write_text(script)
     done = subprocess.run([sys.executable, file], capture_output=True, text=True, check=True)
     assert done.stdout.split() == ["True", "True"]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("asked", [{"NUMBA_CPU_NAME": "generic"}, {"NUMBA_ENABLE_AVX": "0"}])
+def test_a_lesser_processor_can_be_asked_for(tmp_path, asked):
+    script = """
+import numpy as np
+
+from pdtheory.pointset import estimate_directions
+from pdtheory.pointset.kernels.lanes import LANES
+
+xy = np.random.default_rng(0).uniform(-1, 1, (500, 2))
+points = np.column_stack([xy, xy[:, 0] ** 2 - xy[:, 1] ** 2])
+field = estimate_directions(points, radius=0.8, orient="none", queries=[[0, 0, 0]], degree=4)
+print(LANES, *np.sort(field[2].eigenvalue).round(9))
+"""
+    environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path), **asked}
+    done = subprocess.run(
+        [sys.executable, "-c", script], env=environment, capture_output=True, text=True, check=True
+    )
+    assert done.stdout.split() == ["4", "-2.0", "-2.0", "2.0", "2.0"]

@@ -14,13 +14,21 @@ from contextlib import contextmanager
 from functools import reduce
 from typing import Any
 
-from llvmlite import binding, ir
+from llvmlite import ir
 from numba import types
 from numba.core import cgutils
+from numba.core.registry import cpu_target
 from numba.extending import intrinsic
 
+
+def _target_features() -> str:
+    """What the processor that Numba compiles for can do: perhaps less than that of this machine."""
+    _, _, features = cpu_target.target_context.codegen().magic_tuple()
+    return str(features)
+
+
 #: Doubles in a vector.
-LANES = 8 if binding.get_host_cpu_features().get("avx512f") else 4
+LANES = 8 if "+avx512f" in _target_features().split(",") else 4
 
 _REAL = ir.DoubleType()
 _VECTOR = ir.VectorType(_REAL, LANES)

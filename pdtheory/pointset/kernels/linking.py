@@ -170,8 +170,8 @@ def _known_operators() -> Iterator[None]:
 def _no_collection() -> Iterator[None]:
     """Leave Python's garbage where it is: to look for it is a sixth of the time of a first run."""
     enabled = gc.isenabled()
-    gc.disable()
     try:
+        gc.disable()
         yield
     finally:
         if enabled:
