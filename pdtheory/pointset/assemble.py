@@ -39,7 +39,9 @@ class Collector:
         self._found = engine.make_found(len(points))
         # As large as they can get; the system gives only what is written to.
         columns = results.row_columns(engine.settings.uncertainty)
-        self._rows = [np.empty((len(points) * int(k), columns)) for k in engine.orders]
+        self._rows = {
+            j: np.empty((len(points) * int(k), columns)) for j, k in enumerate(engine.orders)
+        }
         self._used = np.zeros(len(engine.orders), np.int64)
         self._slots: list[IntArray] = []
         self._lock = threading.Lock()
@@ -53,12 +55,12 @@ class Collector:
             self._used += lengths
             self._slots.append(slots)
         first = 0
-        for kept, start, length in zip(self._rows, starts, lengths, strict=True):
+        for kept, start, length in zip(self._rows.values(), starts, lengths, strict=True):
             kept[start : start + length] = rows[first : first + length]
             first += length
 
     def field(self, threads: int = 1) -> DirectionField:
-        """Return everything that was added as one field.
+        """Return everything that was added as one field; to be called once.
 
         Parameters
         ----------
@@ -94,7 +96,7 @@ class Collector:
         firsts[slots] = np.cumsum(lengths[slots]) - lengths[slots]
         total = int(offsets[-1])
         # They go where they belong, and their memory serves the next order.
-        rows, self._rows[j] = self._rows[j], self._rows[j][:0].copy()
+        rows = self._rows.pop(j)
         uncertain = rows.shape[1] == results.COLUMNS
         angles, values, vectors = np.empty(total), np.empty((2, total)), np.empty((total, 3))
         kinds, deviations = np.empty(total, np.int8), np.empty((2, total if uncertain else 0))
