@@ -27,7 +27,6 @@ _OPERATORS = frozenset(
     {bool, int, min, max, abs, *(value for value in vars(operator).values() if callable(value))}
 )
 
-
 #: What Numba goes through for features that no kernel uses: closures, inlined functions, rewritten
 #: expressions of arrays, loops over tuples, exceptions with values, listings with types.
 NEEDLESS = frozenset(
@@ -168,7 +167,7 @@ def _known_operators() -> Iterator[None]:
 
 @contextmanager
 def _no_collection() -> Iterator[None]:
-    """Leave Python's garbage where it is: to look for it is a sixth of the time of a first run."""
+    """Leave Python's garbage where it is; to look for it takes a good part of a first run."""
     enabled = gc.isenabled()
     try:
         gc.disable()
