@@ -118,12 +118,20 @@ def test_garbage_is_collected_after_compiling_and_not_before():
         gc.set_threshold(*thresholds)
         gc.callbacks.remove(note)
     assert during <= 2
+    assert gc.get_freeze_count() == 0
     gc.disable()
     try:
         run.compile((numba.int64,))
         assert not gc.isenabled()
     finally:
         gc.enable()
+    # Objects that somebody else keeps from being looked through stay so.
+    gc.freeze()
+    try:
+        run.compile((numba.float32,))
+        assert gc.get_freeze_count() > 0
+    finally:
+        gc.unfreeze()
 
 
 def test_threads_that_compile_leave_numba_as_it_was(tmp_path):

@@ -167,13 +167,20 @@ def _known_operators() -> Iterator[None]:
 
 @contextmanager
 def _no_collection() -> Iterator[None]:
-    """Leave Python's garbage where it is; to look for it takes a good part of a first run."""
+    """Leave Python's garbage where it is; to look for it takes a good part of a first run.
+
+    What has been made meanwhile goes to the oldest objects, which are looked through last.
+    """
     enabled = gc.isenabled()
     try:
         gc.disable()
         yield
     finally:
         if enabled:
+            # Only if nobody else keeps objects from being looked through.
+            if gc.get_freeze_count() == 0:
+                gc.freeze()
+                gc.unfreeze()
             gc.enable()
 
 
