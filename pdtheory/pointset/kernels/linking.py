@@ -19,6 +19,9 @@ from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import CompilerBase, DefaultPassBuilder
 from numba.core.compiler_lock import global_compiler_lock
 from numba.core.registry import cpu_target
+from numba.core.typed_passes import NativeLowering
+
+from pdtheory.pointset.kernels.lowering import PlainLowering
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -53,7 +56,11 @@ class Pipeline(CompilerBase):
     def define_pipelines(self) -> list[Any]:
         """Return the one way to compile."""
         manager = DefaultPassBuilder.define_nopython_pipeline(self.state)
-        manager.passes = [(one, text) for one, text in manager.passes if one._name not in NEEDLESS]
+        manager.passes = [
+            (PlainLowering if one is NativeLowering else one, text)
+            for one, text in manager.passes
+            if one._name not in NEEDLESS
+        ]
         manager.finalize()
         return [manager]
 
