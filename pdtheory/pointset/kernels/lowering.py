@@ -1,16 +1,17 @@
-"""Entries of arrays in a few instructions.
+"""Entries of arrays, fields of records and loops over ranges in a few instructions.
 
-For `a[i, j]` Numba writes some fifty instructions, most of which are removed again, and a good part
-of a first run goes into them. Kernels read and write numbers in contiguous arrays at indices that
-are not negative, for which five do.
+For `a[i, j]` Numba writes some fifty instructions and for the start of a loop as many, most of them
+to be removed again, and a good part of a first run goes into them. Kernels read and write numbers
+in contiguous arrays at indices that are not negative, and no step of theirs is 0: that takes less.
 """
 
 from __future__ import annotations
 
 from typing import Any
 
+from llvmlite import ir as llvm
 from numba import types
-from numba.core import ir
+from numba.core import cgutils, ir
 from numba.core.compiler_machinery import register_pass
 from numba.core.lowering import Lower
 from numba.core.typed_passes import NativeLowering
@@ -29,7 +30,78 @@ class PlainLower(Lower):
         """Return the value of an expression."""
         if expr.op == "static_getitem" and self._is_plain(expr.value, expr.index_var):
             return self.lower_getitem(resty, expr, expr.value, expr.index_var, None)
+        if expr.op in ("getattr", "getiter", "iternext"):
+            kind = self.typeof(expr.value.name)
+            if isinstance(kind, types.Record) and isinstance(resty, types.NestedArray):
+                return self._field(kind, resty, expr)
+            if isinstance(kind, types.RangeType):
+                return self._start(kind, resty, expr)
+            if isinstance(kind, types.RangeIteratorType):
+                return self._next(kind, resty, expr)
         return super().lower_expr(resty, expr)
+
+    def _field(self, record: Any, kind: Any, expr: Any) -> Any:
+        """Return an array that is part of a record."""
+        model, value = self._empty(kind)
+        data = self.context.get_data_type(kind.dtype)
+        offset = record.offset(expr.attr)
+        first = cgutils.get_record_member(self.builder, self.loadvar(expr.value.name), offset, data)
+        return model.set(self.builder, value, first, "data")
+
+    def _empty(self, kind: Any) -> tuple[Any, Any]:
+        """Return the model of an array of known shape, and the array but for where it is."""
+        model = self.context.data_model_manager[kind]
+        whole = model.get_value_type()
+        size = kind.dtype.bitwidth // 8
+        sides = {"nitems": kind.nitems, "itemsize": size, "shape": kind.shape}
+        sides["strides"] = kind.strides
+        parts = []
+        for name in ("meminfo", "parent", "nitems", "itemsize", "data", "shape", "strides"):
+            part = whole.elements[model.get_field_position(name)]
+            number = sides.get(name)
+            if isinstance(number, tuple):
+                parts.append(llvm.Constant(part, [part.element(side) for side in number]))
+            else:
+                parts.append(llvm.Constant(part, number))
+        return model, llvm.Constant(whole, parts)
+
+    def _start(self, kind: Any, iterator: Any, expr: Any) -> Any:
+        """Return what a loop over a range begins with."""
+        build, value = self.builder, self.loadvar(expr.value.name)
+        model = self.context.data_model_manager[kind]
+        start, stop, step = (model.get(build, value, name) for name in ("start", "stop", "step"))
+        zero, one = step.type(0), step.type(1)
+        rest = build.select(
+            build.icmp_signed(">", step, zero), build.sub(step, one), build.add(step, one)
+        )
+        count = build.sdiv(build.add(build.sub(stop, start), rest), step)
+        count = build.select(build.icmp_signed(">", count, zero), count, zero)
+        parts = {
+            "iter": cgutils.alloca_once_value(build, start),
+            "stop": stop,
+            "step": step,
+            "count": cgutils.alloca_once_value(build, count),
+        }
+        return self._struct(iterator, parts)
+
+    def _next(self, kind: Any, pair: Any, expr: Any) -> Any:
+        """Return the number of this round and whether there is one, and go on."""
+        build, value = self.builder, self.loadvar(expr.value.name)
+        model = self.context.data_model_manager[kind]
+        at, left = model.get(build, value, "iter"), model.get(build, value, "count")
+        number, count = build.load(at), build.load(left)
+        build.store(build.add(number, model.get(build, value, "step")), at)
+        build.store(build.sub(count, count.type(1)), left)
+        there = build.icmp_signed(">", count, count.type(0))
+        return self._struct(pair, {"first": number, "second": there})
+
+    def _struct(self, kind: Any, parts: dict[str, Any]) -> Any:
+        """Return a value of several parts."""
+        model = self.context.data_model_manager[kind]
+        value = llvm.Constant(model.get_value_type(), llvm.Undefined)
+        for name, part in parts.items():
+            value = model.set(self.builder, value, part, name)
+        return value
 
     def lower_getitem(self, resty: Any, expr: Any, value: Any, index: Any, signature: Any) -> Any:
         """Return an entry."""
