@@ -34,7 +34,7 @@ class PlainLower(Lower):
             kind = self.typeof(expr.value.name)
             if isinstance(kind, types.Record) and isinstance(resty, types.NestedArray):
                 return self._field(kind, resty, expr)
-            if isinstance(kind, types.RangeType):
+            if isinstance(kind, types.RangeType) and kind.dtype.signed:
                 return self._start(kind, resty, expr)
             if isinstance(kind, types.RangeIteratorType):
                 return self._next(kind, resty, expr)
