@@ -232,7 +232,7 @@ class Lanes:
         What follows them, up to a whole vector, may be overwritten.
         """
         if LANES == 8:
-            # Straight to memory, AMD's processors do this many times slower.
+            # The form that stores to memory is microcode on some processors, this one is not.
             kind = ir.FunctionType(_VECTOR, [_VECTOR, _VECTOR, mask.type])
             name = f"llvm.x86.avx512.mask.compress.v{LANES}f64"
             compress = cgutils.get_or_insert_function(self.builder.module, kind, name)
