@@ -52,13 +52,16 @@ class PlainLower(Lower):
         """Return the model of an array of known shape, and the array but for where it is."""
         model = self.context.data_model_manager[kind]
         whole = model.get_value_type()
-        size = kind.dtype.bitwidth // 8
-        sides = {"nitems": kind.nitems, "itemsize": size, "shape": kind.shape}
-        sides["strides"] = kind.strides
+        known = {
+            "nitems": kind.nitems,
+            "itemsize": kind.dtype.bitwidth // 8,
+            "shape": kind.shape,
+            "strides": kind.strides,
+        }
         parts = []
         for name in ("meminfo", "parent", "nitems", "itemsize", "data", "shape", "strides"):
             part = whole.elements[model.get_field_position(name)]
-            number = sides.get(name)
+            number = known.get(name)
             if isinstance(number, tuple):
                 parts.append(llvm.Constant(part, [part.element(side) for side in number]))
             else:

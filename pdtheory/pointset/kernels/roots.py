@@ -1,12 +1,9 @@
 """All critical angles of a homogeneous term g_k on the half circle, none missed.
 
-With g(theta) = sum_n phi_n e^{i n theta}, the angles are the zeros of h = g'. On an interval of
-width d the linear interpolant of a function differs from it by at most d^2 / 8 times the maximum of
-its second derivative, which the coefficients bound, and the cubic one, of values and slopes at both
-ends, by d^4 / 384 times the fourth. The cubic lies between its least and largest coefficient over
-Bernstein's polynomials. So from the ends one can certify that h has no zero, or that h' has none
-and h is monotone. Intervals where neither holds are halved. Order 2 has one frequency besides the
-constant, and its angles a formula.
+With g(theta) = sum_n phi_n e^{i n theta}, the angles are the zeros of h = g'. From values and
+slopes at the ends of an interval, and bounds on the derivatives from the coefficients, one can
+certify (`certificates`) that h has no zero, or that h' has none and h is monotone. Intervals where
+neither holds are halved. Order 2 has one frequency besides the constant, and its angles a formula.
 """
 
 from __future__ import annotations
@@ -16,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from pdtheory.pointset.kernels.certificates import empty, monotone_on
 from pdtheory.pointset.kernels.jit import Array, inner
 from pdtheory.pointset.kernels.lanes import LANES, Lanes, Rows, emit
 from pdtheory.pointset.kernels.tables import SAMPLES
@@ -94,9 +92,9 @@ def _find_candidates(to: Lanes, samples: Rows, width: Any, error: Any, intervals
         (ha, da), (hb, db) = (
             [to.load(samples.at(row, to.plus(i, end))) for row in range(2)] for end in range(2)
         )
-        inner = to.add(to.times(da, third), ha), to.subtract(hb, to.times(db, third))
-        above = to.larger(to.larger(ha, hb), to.larger(*inner))
-        below = to.smaller(to.smaller(ha, hb), to.smaller(*inner))
+        middle = to.add(to.times(da, third), ha), to.subtract(hb, to.times(db, third))
+        above = to.larger(to.larger(ha, hb), to.larger(*middle))
+        below = to.smaller(to.smaller(ha, hb), to.smaller(*middle))
         doubtful = build.and_(
             build.fcmp_ordered("<=", below, limit), build.fcmp_ordered(">=", above, lowest)
         )
@@ -105,41 +103,6 @@ def _find_candidates(to: Lanes, samples: Rows, width: Any, error: Any, intervals
         to.pack([numbers], doubtful, [intervals.at(to.get(place))])
         to.put(to.plus(to.get(place), to.number(doubtful)), place)
     return build.sitofp(to.get(place), to.real(0.0).type)
-
-
-@inner
-def _empty(
-    ha: float, hb: float, da: float, db: float, d: float, third: float, fifth: float, floor: float
-) -> bool:
-    """Whether h certainly has no zero on an interval of width d."""
-    if (ha < 0.0) != (hb < 0.0):
-        return False
-    if min(abs(ha), abs(hb)) > third * d * d / 8.0:
-        return True
-    a = ha + da * d / 3.0
-    b = hb - db * d / 3.0
-    error = fifth * d * d * d * d / 384.0 + floor
-    return min(min(ha, hb), min(a, b)) > error or max(max(ha, hb), max(a, b)) < -error
-
-
-@inner
-def _monotone(
-    ha: float, hb: float, da: float, db: float, d: float, fourth: float, fifth: float, floor: float
-) -> bool:
-    """Whether h' certainly has no zero on an interval of width d.
-
-    The error of the interpolant vanishes at both ends, so its derivative does there and, by Rolle's
-    theorem, somewhere between: it is at most max |h''''| / 6 times the maximum of the product of
-    the three distances, 4 d^3 / 27.
-    """
-    if not da * db > 0.0:
-        return False
-    least = min(abs(da), abs(db))
-    if least > fourth * d * d / 8.0:
-        return True
-    middle = 3.0 * (hb - ha) / d - da - db
-    error = fifth * d * d * d * 2.0 / 81.0 + 6.0 * floor / d
-    return da * middle > 0.0 and min(least, abs(middle)) > error
 
 
 @inner
@@ -281,7 +244,7 @@ def bracket_angles(
         da = samples[1, sample - 1]
         db = samples[1, sample]
         simple = (ha < 0.0) != (hb < 0.0) and sample < SAMPLES
-        if simple and _monotone(ha, hb, da, db, width, fourth, fifth, floor):
+        if simple and monotone_on(ha, hb, da, db, width, fourth, fifth, floor):
             low = (sample - 1) * width
             _note(re, im, order, low, low + width, ha, hb, True, hb < 0.0, table, kind, found)
             found += 1
@@ -309,8 +272,8 @@ def bracket_angles(
             if sample == SAMPLES and high >= SAMPLES * width and hb == 0.0:
                 negative_b = parity == 1
             change = negative_a != negative_b
-            none = not change and _empty(ha, hb, da, db, d, third, fifth, floor)
-            monotone = _monotone(ha, hb, da, db, d, fourth, fifth, floor)
+            none = not change and empty(ha, hb, da, db, d, third, fifth, floor)
+            monotone = monotone_on(ha, hb, da, db, d, fourth, fifth, floor)
             # Where both ends may be zero, their signs mean nothing.
             monotone = monotone and max(abs(ha), abs(hb)) > floor
             if not none and not monotone and d > _FINEST:
